@@ -1,0 +1,27 @@
+#include "silvasim/base/parallel.h"
+
+#include <algorithm>
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+namespace silvasim::base {
+
+ThreadLimit::ThreadLimit(int threads)
+    : control_(new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                       static_cast<std::size_t>(threads > 0 ? threads
+                                                                            : tbb::info::default_concurrency()))) {}
+
+ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(control_); }
+
+int thread_count() {
+  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { body(i); });
+}
+
+}  // namespace silvasim::base
