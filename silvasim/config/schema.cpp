@@ -1,0 +1,104 @@
+#include "silvasim/config/schema.h"
+
+#include <cmath>
+
+#include "silvasim/config/value.h"
+
+namespace silvasim::config {
+
+namespace {
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (char c : text) {
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += c;
+    }
+  }
+  return out;
+}
+
+std::string documentation(const std::string& help, const std::string& indent) {
+  return indent + "<xs:annotation><xs:documentation>" + escaped(help) + "</xs:documentation></xs:annotation>\n";
+}
+
+const char* simple_type(ValueType type) {
+  switch (type) {
+    case ValueType::number: return "Number";
+    case ValueType::integer: return "Whole";
+    case ValueType::boolean: return "xs:boolean";
+    case ValueType::fraction: return "Share";
+    case ValueType::length: return "Length";
+    case ValueType::colour: return "Colour";
+    case ValueType::name:
+    case ValueType::path: return "NotEmpty";
+    default: return "xs:string";
+  }
+}
+
+std::string attribute(const AttributeRule& rule, const std::string& indent) {
+  std::string out = indent + "<xs:attribute name=\"" + rule.name + "\"";
+  if (rule.required) out += " use=\"required\"";
+  if (!rule.fallback.empty()) out += " default=\"" + escaped(rule.fallback) + "\"";
+  if (rule.type != ValueType::choice) {
+    out += " type=\"" + std::string(simple_type(rule.type)) + "\">\n" + documentation(rule.help, indent + "  ");
+  } else {
+    out += ">\n" + documentation(rule.help, indent + "  ") + indent + "  <xs:simpleType><xs:restriction base=\"xs:token\">";
+    for (const std::string& choice : rule.choices) out += "<xs:enumeration value=\"" + escaped(choice) + "\"/>";
+    out += "</xs:restriction></xs:simpleType>\n";
+  }
+  return out + indent + "</xs:attribute>\n";
+}
+
+std::string complex_type(const ElementRule& rule, const Dialect& dialect) {
+  std::string out = "  <xs:complexType name=\"" + rule.type + "\">\n" + documentation(rule.help, "    ");
+  std::string indent = "    ";
+  if (rule.text != ValueType::none) {
+    const char* base = rule.text_required ? simple_type(rule.text) : "xs:string";
+    out += "    <xs:simpleContent><xs:extension base=\"" + std::string(base) + "\">\n";
+    indent = "      ";
+  } else if (!rule.children.empty()) {
+    out += "    <xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">\n";
+    for (const ChildRule& child : rule.children) {
+      out += "      <xs:element name=\"" + dialect.rule(child.type).tag + "\" type=\"" + child.type + "\"/>\n";
+    }
+    out += "    </xs:choice>\n";
+  }
+  for (const AttributeRule& a : rule.attributes) out += attribute(a, indent);
+  if (rule.text != ValueType::none) out += "    </xs:extension></xs:simpleContent>\n";
+  return out + "  </xs:complexType>\n";
+}
+
+// The parser trims values and takes units after a blank; the patterns allow the same.
+std::string simple_types() {
+  const std::string blank = "\\s*";
+  const std::string number = "-?([0-9]+(\\.[0-9]*)?|\\.[0-9]+)([eE][+\\-]?[0-9]+)?";
+  const auto restricted = [](const std::string& name, const std::string& pattern) {
+    return "  <xs:simpleType name=\"" + name + "\"><xs:restriction base=\"xs:string\"><xs:pattern value=\"" + pattern +
+           "\"/></xs:restriction></xs:simpleType>\n";
+  };
+  return restricted("Number", blank + number + blank) + restricted("Whole", blank + number + blank) +
+         restricted("Share", blank + number + blank + "%?" + blank) +
+         restricted("Length", blank + number + blank + "(m|km|cm|mm|ft)?" + blank) +
+         restricted("Colour", blank + "#[0-9a-fA-F]{6}" + blank) + restricted("NotEmpty", blank + "\\S[\\S\\s]*");
+}
+
+}  // namespace
+
+std::string xml_schema(const Dialect& dialect) {
+  std::string out =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<!-- Written by: silvasim schema. Silva's dialect of XML: the ecosystem file and the plants file. -->\n"
+      "<xs:schema xmlns:xs=\"http://www.w3.org/2001/XMLSchema\">\n"
+      "  <xs:element name=\"ecosystem\" type=\"Ecosystem\"/>\n"
+      "  <xs:element name=\"plants\" type=\"Plants\"/>\n";
+  out += simple_types();
+  for (const ElementRule& rule : dialect.rules) out += complex_type(rule, dialect);
+  return out + "</xs:schema>\n";
+}
+
+}  // namespace silvasim::config
