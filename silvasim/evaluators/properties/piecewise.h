@@ -1,0 +1,44 @@
+// A piecewise linear function through given points, constant outside of them. Trapezoids, tables and gradients are made of it.
+#pragma once
+
+#include <vector>
+
+#include "silvasim/evaluators/response.h"
+
+namespace silvasim::evaluators {
+
+struct CurvePoint {
+  float x = 0;
+  float y = 0;
+};
+
+class PiecewiseLinear final : public Response {
+ public:
+  // Points ascending in x; equal x make a step, at which the later point holds. One point at least.
+  explicit PiecewiseLinear(const std::vector<CurvePoint>& points);
+
+  void apply(const float* x, float* y, std::size_t count) const override;
+
+ private:
+  struct Segment {
+    float start, reciprocal_width, y, rise;
+  };
+  float before_;
+  float last_x_, after_;
+  std::vector<Segment> segments_;
+};
+
+// As above through a hundred points and more: finds the segment by a table of buckets instead of trying each.
+class SampledCurve final : public Response {
+ public:
+  explicit SampledCurve(std::vector<CurvePoint> points);
+
+  void apply(const float* x, float* y, std::size_t count) const override;
+
+ private:
+  std::vector<CurvePoint> points_;
+  std::vector<int> first_;  // a bucket: the last point at or before its start
+  float start_ = 0, buckets_per_unit_ = 0;
+};
+
+}  // namespace silvasim::evaluators
