@@ -64,7 +64,7 @@ ConfigError::ConfigError(Place place, std::string message)
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
   constexpr std::size_t longest = 64;
   if (word.empty() || word.size() > longest) return {};
-  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
+  std::size_t least = std::min(word.size(), std::max<std::size_t>(1, word.size() / 3) + 1);
   const std::string* best = nullptr;
   for (const std::string& candidate : candidates) {
     if (candidate.size() > longest) continue;

@@ -56,8 +56,10 @@ TileSettings read_tiles(Loading& loading, const Node& layer) {
 void resolve_evaluator(Loading& loading, const Node& node, const Scenario& scenario, const LayerSettings& layer,
                        StepSettings& step) {
   const std::string tag = "<" + node.rule->tag + ">";
-  step.lethal = node.boolean("lethal");
-  step.floor = node.number("floor");
+  if (node.knows("lethal")) {
+    step.lethal = node.boolean("lethal");
+    step.floor = node.number("floor");
+  }
 
   if (const Node* reference = node.child("DatafieldReference")) {
     std::vector<std::string> names;

@@ -1,5 +1,6 @@
 #include "silvasim/config/node.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace silvasim::config {
@@ -9,6 +10,11 @@ std::size_t Node::index(const std::string& attribute) const {
     if (rule->attributes[i].name == attribute) return i;
   }
   throw std::logic_error("<" + rule->tag + "> has no attribute " + attribute + " in its table");
+}
+
+bool Node::knows(const std::string& attribute) const {
+  return std::any_of(rule->attributes.begin(), rule->attributes.end(),
+                     [&](const AttributeRule& known) { return known.name == attribute; });
 }
 
 bool Node::has(const std::string& attribute) const {

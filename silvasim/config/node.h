@@ -22,6 +22,9 @@ struct Node {
   Value text_value;
   std::vector<Node> children;
 
+  // Whether the rule has the attribute at all.
+  bool knows(const std::string& attribute) const;
+
   // By attribute name, which must be in the rule.
   bool has(const std::string& attribute) const;
   bool given(const std::string& attribute) const;  // written by the user, not a default

@@ -28,14 +28,14 @@ std::string documentation(const std::string& help, const std::string& indent) {
 
 const char* simple_type(ValueType type) {
   switch (type) {
-    case ValueType::number: return "Number";
-    case ValueType::integer: return "Whole";
+    case ValueType::number: return "NumberValue";
+    case ValueType::integer: return "WholeValue";
     case ValueType::boolean: return "xs:boolean";
-    case ValueType::fraction: return "Share";
-    case ValueType::length: return "Length";
-    case ValueType::colour: return "Colour";
+    case ValueType::fraction: return "ShareValue";
+    case ValueType::length: return "LengthValue";
+    case ValueType::colour: return "ColourValue";
     case ValueType::name:
-    case ValueType::path: return "NotEmpty";
+    case ValueType::path: return "TextValue";
     default: return "xs:string";
   }
 }
@@ -81,10 +81,10 @@ std::string simple_types() {
     return "  <xs:simpleType name=\"" + name + "\"><xs:restriction base=\"xs:string\"><xs:pattern value=\"" + pattern +
            "\"/></xs:restriction></xs:simpleType>\n";
   };
-  return restricted("Number", blank + number + blank) + restricted("Whole", blank + number + blank) +
-         restricted("Share", blank + number + blank + "%?" + blank) +
-         restricted("Length", blank + number + blank + "(m|km|cm|mm|ft)?" + blank) +
-         restricted("Colour", blank + "#[0-9a-fA-F]{6}" + blank) + restricted("NotEmpty", blank + "\\S[\\S\\s]*");
+  return restricted("NumberValue", blank + number + blank) + restricted("WholeValue", blank + number + blank) +
+         restricted("ShareValue", blank + number + blank + "%?" + blank) +
+         restricted("LengthValue", blank + number + blank + "(m|km|cm|mm|ft)?" + blank) +
+         restricted("ColourValue", blank + "#[0-9a-fA-F]{6}" + blank) + restricted("TextValue", blank + "\\S[\\S\\s]*");
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ void SampledCurve::apply(const float* x, float* y, std::size_t count) const {
   const float last_x = points_.back().x;
   const int last = static_cast<int>(points_.size()) - 1;
   for (std::size_t i = 0; i < count; ++i) {
-    if (x[i] <= start_) {
+    if (x[i] < start_) {
       y[i] = points_.front().y;
       continue;
     }

@@ -62,13 +62,13 @@ TEST(Scenario, ARightOneHasNoErrors) { EXPECT_EQ(errors(ecosystem(evaluator()), 
 
 TEST(Scenario, ErrorsNameTheThingAndWhatWouldBeRight) {
   EXPECT_EQ(errors(ecosystem(evaluator("<FunctionEvaluator><datafield>watr</datafield><property>W</property></FunctionEvaluator>")), plants()),
-            "ecosystem.xml:3:31: error: <FunctionEvaluator> uses the unknown data field \"watr\"; did you mean \"water\"?\n");
+            "ecosystem.xml:3:30: error: <FunctionEvaluator> uses the unknown data field \"watr\"; did you mean \"water\"?\n");
   EXPECT_EQ(errors(ecosystem(evaluator()), plants("<property name=\"V\"><MinMax min=\"0\" max=\"1\"/></property>")),
             "plants.xml:2:1: error: plant \"oak\" has no property \"W\", which <FunctionEvaluator> at ecosystem.xml:3 asks for\n");
   EXPECT_EQ(errors(ecosystem(evaluator()), plants("<property name=\"W\"><MinMax min=\"1\" max=\"0\"/></property>")),
-            "plants.xml:2:39: error: <MinMax> reversed: min is above max\n");
+            "plants.xml:2:38: error: <MinMax> reversed: min is above max\n");
   EXPECT_EQ(errors(ecosystem(evaluator()), plants("<property name=\"W\"><Classes><class code=\"1\" value=\"1\"/></Classes></property>")),
-            "plants.xml:2:39: error: property \"W\" of \"oak\" is a <Classes>, but <FunctionEvaluator> at ecosystem.xml:3 takes <Gauss>, "
+            "plants.xml:2:38: error: property \"W\" of \"oak\" is a <Classes>, but <FunctionEvaluator> at ecosystem.xml:3 takes <Gauss>, "
             "<Bezier>, <Table>, <Trapezoid>, <MinMax>, <Constant>\n");
   EXPECT_EQ(errors(ecosystem("<datafield name=\"water\">water.png</datafield>" + evaluator()), plants()),
             "ecosystem.xml:3:1: error: data field \"water\" stands twice; the first is at ecosystem.xml:2\n");
@@ -102,7 +102,7 @@ TEST(Scenario, AllErrorsOfBothFilesAreShownTogether) {
                                   plants("<property name=\"W\"><MinMax min=\"a\" max=\"1\"/></property>"));
   EXPECT_NE(text.find("has no attribute \"sde\"; did you mean \"side\"?"), std::string::npos) << text;
   EXPECT_NE(text.find("<FunctionEvaluator> needs a <datafield>"), std::string::npos) << text;
-  EXPECT_NE(text.find("plants.xml:2:47: error: <MinMax> min: \"a\" is no number"), std::string::npos) << text;
+  EXPECT_NE(text.find("plants.xml:2:46: error: <MinMax> min: \"a\" is no number"), std::string::npos) << text;
 }
 
 TEST(Scenario, IncludesAreSplicedAndCyclesRefused) {

@@ -20,7 +20,8 @@ std::string first_error(const std::string& text) {
 
 TEST(Xml, SaysWhatIsWrongAndWhere) {
   const std::pair<const char*, const char*> cases[] = {
-      {"", "f.xml:1: error: the file has no element; expected <ecosystem>"},
+      {"", "f.xml: error: the file has no XML in it"},
+      {"<!-- nothing -->", "f.xml:1: error: the file has no element; expected <ecosystem>"},
       {"<ecosystem>", "f.xml:1: error: an element is not closed, or closed by another name"},
       {"<ecosystem/>\n<ecosystem/>", "f.xml:2: error: a second root element; XML has one"},
       {"<plants/>", "f.xml:1:1: error: the root element is <plants>; expected <ecosystem>"},
