@@ -1,0 +1,104 @@
+// silvasim info: what an ecosystem file holds.
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "silvasim/commands/commands.h"
+#include "silvasim/commands/console.h"
+#include "silvasim/ecosystem/file.h"
+#include "silvasim/fields/field_set.h"
+
+namespace silvasim::commands {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<std::uint64_t> count(const ecosystem::Layer& layer) {
+  std::vector<std::uint64_t> counts(layer.species.size(), 0);
+  for (const ecosystem::PlantId plant : layer.plants) {
+    if (plant != ecosystem::no_plant) ++counts[plant];
+  }
+  return counts;
+}
+
+Json as_json(const ecosystem::Ecosystem& e, const Path& path, const fields::FrameReport& frame) {
+  Json json;
+  json["name"] = e.name;
+  json["file"] = path.filename().string();
+  json["bytes"] = std::filesystem::file_size(path);
+  json["extent"] = {{"west", e.extent.west}, {"south", e.extent.south}, {"east", e.extent.east}, {"north", e.extent.north}};
+  json["crs_wkt"] = e.crs_wkt;
+  if (frame.centre) json["centre"] = {{"latitude", frame.centre->latitude_deg}, {"longitude", frame.centre->longitude_deg}};
+  json["terrain"] = {{"columns", e.terrain.columns}, {"rows", e.terrain.rows}};
+  std::uint64_t sites = 0, plants = 0;
+  json["layers"] = Json::array();
+  for (const ecosystem::Layer& layer : e.layers) {
+    Json species = Json::array();
+    std::uint64_t in_layer = 0;
+    const auto counts = count(layer);
+    for (std::size_t s = 0; s < counts.size(); ++s) {
+      in_layer += counts[s];
+      species.push_back({{"name", layer.species[s].name}, {"common_name", layer.species[s].common_name},
+                         {"colour", fmt::format("#{:06x}", layer.species[s].colour)}, {"model", layer.species[s].model}, {"plants", counts[s]}});
+    }
+    sites += layer.plants.size();
+    plants += in_layer;
+    json["layers"].push_back({{"name", layer.name},
+                              {"sites", layer.plants.size()},
+                              {"plants", in_layer},
+                              {"tiles", {{"columns", layer.tiling.columns}, {"rows", layer.tiling.rows},
+                                         {"kinds", layer.tile_set.tiles.size()}, {"side_m", layer.tile_set.side_m}}},
+                              {"most_radius_m", layer.tile_set.most_radius_m},
+                              {"probabilities", !layer.probabilities.empty()},
+                              {"species", species}});
+  }
+  json["sites"] = sites;
+  json["plants"] = plants;
+  json["provenance"] = Json::parse(e.provenance_json, nullptr, false);
+  return json;
+}
+
+void print(const ecosystem::Ecosystem& e, const Path& path, const fields::FrameReport& frame) {
+  fmt::print("{}  ({}, {})\n", e.name, path.string(), bytes_text(std::filesystem::file_size(path)));
+  fmt::print("extent   {:.2f} to {:.2f} east, {:.2f} to {:.2f} north; {:.2f} x {:.2f} km\n", e.extent.west, e.extent.east, e.extent.south,
+             e.extent.north, e.extent.width() / 1000, e.extent.height() / 1000);
+  if (frame.centre) {
+    fmt::print("place    latitude {:.5f}, longitude {:.5f}, MGRS {}\n", frame.centre->latitude_deg, frame.centre->longitude_deg, frame.mgrs);
+    fmt::print("frame    scale {:.6f} to {:.6f}, convergence {:.3f} degrees, earth drops {:.1f} m\n", frame.least_scale, frame.most_scale,
+               frame.convergence_deg, frame.curvature_drop_m);
+  } else {
+    fmt::print("place    local metres, without a place on the earth\n");
+  }
+  if (e.terrain.columns > 0) fmt::print("terrain  {} x {} cells of {:.2f} m\n", e.terrain.columns, e.terrain.rows, e.terrain.cell_width_m);
+  for (const ecosystem::Layer& layer : e.layers) {
+    const auto counts = count(layer);
+    std::uint64_t plants = 0;
+    for (const std::uint64_t c : counts) plants += c;
+    fmt::print("layer    {}: {} plants on {} sites; {} x {} tiles of {:g} m, {} kinds{}\n", layer.name, grouped(plants),
+               grouped(layer.plants.size()), layer.tiling.columns, layer.tiling.rows, layer.tile_set.side_m, layer.tile_set.tiles.size(),
+               layer.probabilities.empty() ? "" : ", with probabilities");
+    for (std::size_t s = 0; s < counts.size(); ++s) {
+      fmt::print("  {:<28} {:<28} {:>14} {:5.1f} %\n", layer.species[s].name, layer.species[s].common_name, grouped(counts[s]),
+                 plants > 0 ? 100.0 * static_cast<double>(counts[s]) / static_cast<double>(plants) : 0.0);
+    }
+  }
+  const Json provenance = Json::parse(e.provenance_json, nullptr, false);
+  if (provenance.is_object()) {
+    fmt::print("made by  silvasim {}, seed {}, configuration {}\n", provenance.value("version", "?"), provenance.value("seed", Json()).dump(),
+               provenance.value("config_sha256", "?").substr(0, 16));
+  }
+}
+
+}  // namespace
+
+void info(const InfoOptions& options) {
+  const ecosystem::Ecosystem e = ecosystem::read(options.ecosystem);
+  const fields::FrameReport frame = fields::report_frame({e.crs_wkt, "", e.extent});
+  if (options.common.json) {
+    fmt::print("{}\n", as_json(e, options.ecosystem, frame).dump(2));
+  } else {
+    print(e, options.ecosystem, frame);
+  }
+}
+
+}  // namespace silvasim::commands

@@ -1,0 +1,194 @@
+// silvasim run: the main job.
+#include <algorithm>
+#include <chrono>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "silvasim/base/error.h"
+#include "silvasim/base/file.h"
+#include "silvasim/base/parallel.h"
+#include "silvasim/commands/commands.h"
+#include "silvasim/commands/console.h"
+#include "silvasim/ecosystem/file.h"
+#include "silvasim/export/formats.h"
+#include "silvasim/export/picture.h"
+#include "silvasim/pipeline.h"
+#include "silvasim/provenance.h"
+
+namespace silvasim::commands {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// No output may be an input or another output, and each must be writable by name before the work begins.
+void check_outputs(const std::vector<Path>& outputs, const std::vector<Path>& inputs) {
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (std::filesystem::weakly_canonical(outputs[i]) == std::filesystem::weakly_canonical(outputs[k])) {
+        throw base::ConfigError({"command line", 0, 0}, "two outputs have the name \"" + outputs[i].string() + "\"");
+      }
+    }
+    base::NewFile probe(outputs[i], inputs);
+  }
+}
+
+std::vector<Path> inputs_of(const config::Scenario& scenario) {
+  std::vector<Path> inputs;
+  for (const config::SourceFile& file : scenario.files) inputs.emplace_back(file.path);
+  for (const config::FieldSettings& field : scenario.fields) {
+    if (!field.path.empty()) inputs.push_back(field.path);
+  }
+  return inputs;
+}
+
+Json layer_json(const LayerReport& layer, const ecosystem::Layer& grown) {
+  Json by_species = Json::object();
+  for (std::size_t s = 0; s < grown.species.size(); ++s) by_species[grown.species[s].name] = layer.plants_by_species[s];
+  return {{"name", layer.name},
+          {"sites", layer.sites},
+          {"plants", layer.plants},
+          {"plants_by_species", by_species},
+          {"tiles", {{"columns", layer.tile_columns}, {"rows", layer.tile_rows}, {"kinds", layer.tile_kinds},
+                     {"side_m", grown.tile_set.side_m}}},
+          {"neighbourhood_passes", layer.neighbourhoods.passes},
+          {"neighbourhood_changed", layer.neighbourhoods.changed},
+          {"neighbourhood_cell_m", layer.neighbourhoods.cell_m},
+          {"corner_conflicts", layer.corners.conflicts},
+          {"corner_components", layer.corners.components},
+          {"corner_largest", layer.corners.largest},
+          {"corner_fallbacks", layer.corners.fallbacks},
+          {"corner_removed", layer.corners.removed}};
+}
+
+Json report_json(const config::Scenario& scenario, const Simulation& simulation, int threads, double total) {
+  Json json;
+  std::uint64_t sites = 0, plants = 0, tiles = 0, conflicts = 0, removed = 0;
+  int passes = 0;
+  Json by_species = Json::object(), layers = Json::array();
+  for (std::size_t i = 0; i < simulation.report.layers.size(); ++i) {
+    const LayerReport& layer = simulation.report.layers[i];
+    sites += layer.sites;
+    plants += layer.plants;
+    tiles += static_cast<std::uint64_t>(layer.tile_columns) * static_cast<std::uint64_t>(layer.tile_rows);
+    conflicts += layer.corners.conflicts;
+    removed += layer.corners.removed;
+    passes = std::max(passes, layer.neighbourhoods.passes);
+    Json one = layer_json(layer, simulation.ecosystem.layers[i]);
+    by_species.update(one["plants_by_species"]);
+    layers.push_back(std::move(one));
+  }
+  json["name"] = scenario.name;
+  json["sites"] = sites;
+  json["plants"] = plants;
+  json["plants_by_species"] = by_species;
+  json["tiles"] = tiles;
+  json["corner_conflicts"] = conflicts;
+  json["corner_removed"] = removed;
+  json["neighbourhood_passes"] = passes;
+  json["layers"] = layers;
+  const base::Box extent = simulation.ecosystem.extent;
+  json["extent"] = {{"west", extent.west}, {"south", extent.south}, {"east", extent.east}, {"north", extent.north}};
+  const fields::FrameReport& frame = simulation.report.frame;
+  if (frame.centre) {
+    json["centre"] = {{"latitude", frame.centre->latitude_deg}, {"longitude", frame.centre->longitude_deg}, {"mgrs", frame.mgrs}};
+    json["frame"] = {{"convergence_deg", frame.convergence_deg},
+                     {"least_scale", frame.least_scale},
+                     {"most_scale", frame.most_scale},
+                     {"curvature_drop_m", frame.curvature_drop_m}};
+  }
+  Json seconds = Json::object();
+  for (const auto& [stage, time] : simulation.report.seconds) seconds[stage] = time;
+  seconds["total"] = total;
+  json["seconds"] = seconds;
+  json["peak_rss_bytes"] = peak_rss_bytes();
+  json["threads"] = threads;
+  json["seed"] = scenario.seed;
+  json["version"] = version;
+  json["config_sha256"] = scenario.sha256;
+  return json;
+}
+
+void print_summary(const Simulation& simulation, const std::vector<Path>& outputs, double total) {
+  std::uint64_t sites = 0, plants = 0, conflicts = 0, removed = 0;
+  std::vector<std::pair<std::uint64_t, std::string>> species;
+  for (std::size_t i = 0; i < simulation.report.layers.size(); ++i) {
+    const LayerReport& layer = simulation.report.layers[i];
+    sites += layer.sites;
+    plants += layer.plants;
+    conflicts += layer.corners.conflicts;
+    removed += layer.corners.removed;
+    for (std::size_t s = 0; s < layer.plants_by_species.size(); ++s) {
+      species.emplace_back(layer.plants_by_species[s], simulation.ecosystem.layers[i].species[s].name);
+    }
+  }
+  std::stable_sort(species.begin(), species.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  const ecosystem::Ecosystem& e = simulation.ecosystem;
+  const fields::FrameReport& frame = simulation.report.frame;
+  fmt::print("place    {}, {:.2f} x {:.2f} km{}\n", e.name, e.extent.width() / 1000, e.extent.height() / 1000,
+             frame.centre ? fmt::format(", about {:.4f}, {:.4f}", frame.centre->latitude_deg, frame.centre->longitude_deg) : "");
+  fmt::print("plants   {} on {} sites, {} species\n", grouped(plants), grouped(sites), species.size());
+  std::string most;
+  for (std::size_t i = 0; i < species.size() && i < 4; ++i) {
+    const double share = plants > 0 ? 100.0 * static_cast<double>(species[i].first) / static_cast<double>(plants) : 0;
+    most += fmt::format("{}{} {:.0f} %", i ? ", " : "", species[i].second, share);
+  }
+  fmt::print("most     {}\n", most);
+  fmt::print("corners  {} overlaps, {} plants gave way\n", grouped(conflicts), grouped(removed));
+  fmt::print("time     {:.2f} s, {} of memory at most\n", total, bytes_text(peak_rss_bytes()));
+  for (const Path& output : outputs) {
+    fmt::print("wrote    {} ({})\n", output.string(), bytes_text(std::filesystem::file_size(output)));
+  }
+}
+
+}  // namespace
+
+void run(const RunOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto passed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const base::ThreadLimit limit(options.common.threads);
+  const base::Progress progress = console_progress(options.common);
+
+  const config::Scenario scenario = load(options.scenario);
+  const Path output = options.output.value_or(options.scenario.ecosystem.stem().string() + ".silva");
+  std::vector<Path> outputs{output};
+  for (const auto& extra : {options.svg, options.png, options.csv, options.gpkg, options.geojson}) {
+    if (extra) outputs.push_back(*extra);
+  }
+  const std::vector<Path> inputs = inputs_of(scenario);
+  check_outputs(outputs, inputs);
+
+  Simulation simulation = simulate(scenario, {options.probabilities, progress});
+  const ecosystem::Ecosystem& grown = simulation.ecosystem;
+  const auto timed = [&](const char* stage, const auto& write) {
+    const double before = passed();
+    write();
+    simulation.report.seconds.emplace_back(stage, passed() - before);
+  };
+  timed("write", [&] { ecosystem::write(grown, output, inputs, progress); });
+  const bool pictures = options.png || options.svg;
+  const bool exports = options.csv || options.gpkg || options.geojson;
+  if (pictures) {
+    timed("pictures", [&] {
+      base::report(progress, "pictures", 0);
+      if (options.png) exports::write_png(grown, {}, *options.png);
+      if (options.svg) exports::write_svg(grown, {}, *options.svg);
+    });
+  }
+  if (exports) {
+    timed("export", [&] {
+      if (options.csv) exports::export_to(grown, "csv", *options.csv, progress);
+      if (options.gpkg) exports::export_to(grown, "gpkg", *options.gpkg, progress);
+      if (options.geojson) exports::export_to(grown, "geojson", *options.geojson, progress);
+    });
+  }
+  end_progress(options.common);
+  if (options.common.json) {
+    fmt::print("{}\n", report_json(scenario, simulation, base::thread_count(), passed()).dump(2));
+  } else if (!options.common.quiet) {
+    print_summary(simulation, outputs, passed());
+  }
+}
+
+}  // namespace silvasim::commands

@@ -1,0 +1,72 @@
+#include "silvasim/export/picture.h"
+
+#include <fmt/format.h>
+
+#include "silvasim/base/error.h"
+#include "silvasim/base/file.h"
+#include "silvasim/export/cover.h"
+#include "silvasim/export/layout.h"
+#include "silvasim/export/png_bytes.h"
+
+namespace silvasim::exports {
+
+namespace {
+
+std::string caption_of(const Census& census, const View& view, const PreviewOptions& options) {
+  std::string text;
+  if (census.plants == 0) {
+    text = "No plants stand in this view.";
+  } else if (style_of(census, view) == Style::crowns) {
+    text = "Crowns are drawn to scale.";
+  } else {
+    text = "Each pixel mixes the colours of the crowns that cover it; where few do, the ground shows through.";
+  }
+  if (options.subject == Subject::probability && census.plants > 0) {
+    text += " Colour tells the growth probability of the plants that stand.";
+  }
+  if (!options.species.empty()) text += " Other species are not shown.";
+  return text;
+}
+
+// Six numbers: the step of a pixel to the east, two turns, the step to the south, the first pixel's centre.
+std::string world_file(const Layout& layout) {
+  const View& view = layout.view;
+  return fmt::format("{}\n0\n0\n{}\n{}\n{}\n", view.box.width() / view.width_px, -view.box.height() / view.height_px,
+                     view.x_m(0.5 - layout.map_x), view.y_m(0.5 - layout.map_y));
+}
+
+}  // namespace
+
+void write_png(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& options,
+               const std::filesystem::path& path) {
+  const base::Box box = box_of(ecosystem, options);
+  const Census census = take_census(ecosystem, options, box);
+  const Layout layout =
+      make_layout(ecosystem, options, census, box, [&](const View& view) { return caption_of(census, view, options); });
+  const Ground ground(ecosystem.terrain, layout.view);
+  const Pixels map = draw_map(ecosystem, census, layout.view, ground, options.subject);
+
+  // Write all before any gets its name.
+  std::filesystem::path world_path = path, crs_path = path;
+  base::NewFile picture(path), world(world_path.replace_extension(".pgw"));
+  picture.write(png_of(layout, map));
+  world.write(world_file(layout));
+  if (!ecosystem.crs_wkt.empty()) {
+    base::NewFile crs(crs_path.replace_extension(".prj"));
+    crs.write(ecosystem.crs_wkt);
+    crs.commit();
+  }
+  world.commit();
+  picture.commit();
+}
+
+void write_preview(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& options,
+                   const std::filesystem::path& path) {
+  const std::string extension = path.extension().string();
+  if (extension == ".png" || extension == ".PNG") return write_png(ecosystem, options, path);
+  if (extension == ".svg" || extension == ".SVG") return write_svg(ecosystem, options, path);
+  throw base::ConfigError({"-o"},
+                          fmt::format("a picture's name ends in .png or .svg, not \"{}\"", path.filename().string()));
+}
+
+}  // namespace silvasim::exports

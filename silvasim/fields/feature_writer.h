@@ -1,0 +1,76 @@
+// Points and rasters out, as files that GIS programs open. Which columns there are and how they look is the caller's.
+//
+// Every function writes whole to `path` and returns when the file is closed and flushed; a full disk is an error. Give
+// it base::NewFile's path() and commit() afterwards. The same values give the same bytes. Errors: base::Error naming
+// the path; base::Cancelled when `progress` says stop. A half-written file may remain at `path`. Threads: any, one file
+// a call.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "silvasim/base/progress.h"
+
+namespace silvasim::fields {
+
+enum class PointFormat {
+  geopackage,  // one point layer in the frame's CRS, and its style where one is given
+  geojson,     // RFC 7946: longitude and latitude of WGS 84; without a CRS the scene's metres
+  csv,         // x and y in the frame's CRS, then the columns; header line, comma, "\n", quotes where needed
+};
+
+enum class ColumnType { integer, number, text };
+
+struct PointColumn {
+  std::string name;
+  ColumnType type = ColumnType::integer;
+  std::vector<std::string> words = {};  // text: what the indices of the blocks stand for
+  int digits = -1;  // number, in geojson and csv: digits after the point; -1: as many as needed to read it back
+};
+
+struct PointLayer {
+  std::string name = "plants";
+  std::string crs_wkt;               // empty: none
+  std::vector<PointColumn> columns;  // names differ, also in lower case, and from "fid", "geom", "x" and "y"
+  std::string style_qml;             // geopackage: the layer's default style in QGIS; empty: none
+  int coordinate_digits = 3;         // geojson and csv, in metres; degrees get five more
+  bool spatial_index = true;         // geopackage
+};
+
+// Some points, column by column, every span of the same length. The values of a text column are indices into its words,
+// -1 = null; a number that is not finite is null.
+struct PointBlock {
+  std::span<const double> x, y;
+  std::vector<std::variant<std::span<const std::int32_t>, std::span<const double>>> columns;
+};
+
+// Asks `next_block` for blocks until it gives none; a block's spans are read before the next is asked for. Blocks of
+// about 65536 points serve well. `count`, if known, is for the progress (stage "write") only. Cost: on one core about
+// 0.4 million points a second to a GeoPackage with its index, 2 to 4 million to text.
+void write_points(const std::filesystem::path& path, PointFormat format, const PointLayer& layer,
+                  const std::function<std::optional<PointBlock>()>& next_block, std::size_t count = 0,
+                  const base::Progress& progress = {});
+
+// One band, row by row, row 0 northernmost.
+struct Band {
+  int columns = 0;
+  int rows = 0;
+  double west = 0, north = 0;              // the grid's corner
+  double cell_width = 1, cell_height = 1;  // metres, > 0
+  std::variant<std::span<const float>, std::span<const std::uint8_t>> values;
+  std::optional<double> no_data;  // NaN is allowed for float
+  std::string crs_wkt;            // empty: none
+  std::string description;        // the band's name, e.g. "probability"
+};
+
+// A tiled, compressed GeoTIFF, read back once to see that it is whole.
+void write_geotiff(const std::filesystem::path& path, const Band& band);
+
+}  // namespace silvasim::fields

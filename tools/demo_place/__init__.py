@@ -1,0 +1,1 @@
+"""Makes the demo place; see tools/make_demo_place.py."""
