@@ -74,8 +74,8 @@ def make(relief, water, seed, log=print):
     lime = 1 - blur(sandstone, 4)
     brown = blur((soil == BROWN_EARTH) | (soil == ROCK), 3)
     foot = smoothstep(6, -14, position) * smoothstep(0.02, 0.2, steep)  # hollows and foot slopes gain what crests lose
-    reaction = of_soil(2, 22) + 2.2 * brown * lime + 0.8 * foot - 0.3 * (1 - lime) * smoothstep(600, 850, h) + 0.55 * patch(150, 80)
-    nutrients = of_soil(3, 22) + 0.8 * brown * lime + 1.3 * foot - 0.5 * smoothstep(-2, 10, position) + 0.5 * patch(130, 81)
+    reaction = of_soil(2, 22) + 2.2 * brown * lime + 0.8 * foot - 0.3 * (1 - lime) * smoothstep(600, 850, h) + 0.55 * patch(150, 80) + 0.6 * patch(34, 83)
+    nutrients = of_soil(3, 22) + 0.8 * brown * lime + 1.3 * foot - 0.5 * smoothstep(-2, 10, position) + 0.5 * patch(130, 81) + 0.6 * patch(34, 84)
 
     # Moisture: what flows in, the reach of the ground water, the sun, the rain that comes with height, the soil.
     inflowing = 0.42 * (np.clip(water.wetness, 4.5, 11) - 6.2)
@@ -85,7 +85,7 @@ def make(relief, water, seed, log=print):
     rain = 1.0 * (h - 430) / 500
     exposed = 0.35 * np.clip(position / 15, -1, 1)
     moisture = (4.95 + inflowing + blur(ground_water, 2) + margins - sun + rain - exposed + of_soil(4, 10) +
-                0.30 * patch(110, 82))
+                0.30 * patch(110, 82) + 0.45 * patch(20, 85))  # the last: mounds, stones and old roots
     wet = (relief.river_distance < 7) | water.pond | water.oxbow
     moisture = np.where(wet, 11.0, moisture)
     log("soils: " + ", ".join(f"{SOILS[k][0]} {100 * np.mean(soil == k):.0f} %" for k in SOILS))
