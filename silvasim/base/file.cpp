@@ -64,8 +64,7 @@ fs::path behind_links(const fs::path& name) {
   return path;
 }
 
-// Makes the new name itself survive a power cut. Some file systems cannot flush a folder; the file is whole all the
-// same.
+// Makes the new name itself survive a power cut. Where a file system cannot do that, the file is whole all the same.
 void flush_folder(const fs::path& folder) {
   const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -173,8 +172,7 @@ std::string read_file(const fs::path& path, std::size_t most_bytes) {
   const std::size_t claimed = static_cast<std::size_t>(status.st_size);
   if (claimed > most_bytes) throw too_large(claimed);
 
-  // Read to the end, wherever it is: the file may grow or shrink meanwhile, and files of the kernel claim no size at
-  // all.
+  // Read to the end, wherever it is: the file may grow or shrink meanwhile, and the kernel's own files claim no size.
   std::string text(claimed + 1, '\0');
   std::size_t filled = 0;
   while (true) {

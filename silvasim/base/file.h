@@ -12,9 +12,9 @@ namespace silvasim::base {
 // when a second Ctrl-C ends the program.
 //
 // Permissions: those of the file that is replaced; for a new one, what the umask leaves.
+// Links: a symbolic link as target is followed, also one to a file yet to be.
 // Errors: base::Error naming the path where the folder is missing, the target is no regular file (a folder, a device),
-// the disk is full (checked at commit, after fsync). A symbolic link as target is followed, also one to a file yet to
-// be.
+//   the disk is full (checked at commit, after fsync).
 class NewFile {
  public:
   // `inputs`: files that must not be overwritten (an output that is also an input is an error).
