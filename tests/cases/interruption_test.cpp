@@ -41,7 +41,9 @@ TEST(Interruption, LeavesNoHalfFile) {
     for (const std::string& file : files) {
       // Only files that are whole may be there: the ecosystem is written before the picture.
       EXPECT_NE(file[0], '.') << file;
-      if (file == "e.silva") EXPECT_EQ(silvasim({"info", folder / file}).code, 0);
+      if (file == "e.silva") {
+        EXPECT_EQ(silvasim({"info", folder / file}).code, 0);
+      }
     }
   }
   std::cout << interrupted << " of 5 runs were interrupted\n";
@@ -52,7 +54,9 @@ TEST(Interruption, KillLeavesNothingUnderAFinalName) {
   const Folder folder;
   run_and_signal(folder, SIGKILL, 300);
   for (const std::string& file : folder.files()) {
-    if (file == "e.silva") EXPECT_EQ(silvasim({"info", folder / file}).code, 0);
+    if (file == "e.silva") {
+      EXPECT_EQ(silvasim({"info", folder / file}).code, 0);
+    }
   }
 }
 

@@ -62,6 +62,7 @@ std::map<std::string, double> stands_by_code() {
   std::getline(file, line);
   std::map<std::string, std::pair<double, double>> sums;
   while (std::getline(file, line)) {
+    std::erase(line, '"');
     std::istringstream fields(line);
     std::string stand, elevation, species, stems;
     std::getline(fields, stand, ',');
