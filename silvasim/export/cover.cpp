@@ -208,7 +208,7 @@ Pixels draw_map(const ecosystem::Ecosystem& ecosystem, const Census& census, con
   const Style style = style_of(census, view);
   const double radius_px = census.mean_radius_m * view.px_per_m();
   const int boldness = boldness_of(radius_px, subject);
-  const bool smooth = radius_px < 0.6;
+  const bool smooth = radius_px < 1.6;
   std::vector<Palette> palettes;
   for (std::size_t l = 0; l < ecosystem.layers.size(); ++l) {
     palettes.emplace_back(ecosystem.layers[l], census.layers[l], subject);

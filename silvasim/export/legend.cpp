@@ -45,7 +45,8 @@ Legend::Legend(const ecosystem::Ecosystem& ecosystem, const Census& census, Subj
                      name.empty() ? std::string() : grouped(plants),
                      0,
                      0,
-                     {}});
+                     {},
+                     !rows_.empty() && rows_.back().kind == Row::Kind::entry});
     for (const std::size_t s : order) {
       const SpeciesCount& count = census.layers[l][s];
       Row row;
@@ -91,7 +92,7 @@ double Legend::height_px() const {
 double Legend::height_px(const Row& row) const {
   switch (row.kind) {
     case Row::Kind::heading:
-      return (two_lines_ ? 36 : 30) * unit_px_;
+      return ((two_lines_ ? 36 : 30) + (row.apart ? 12 : 0)) * unit_px_;
     case Row::Kind::ramp:
       return 74 * unit_px_;
     default:
@@ -106,9 +107,10 @@ double Legend::draw(Part& part, double x, double y, double column_px, int column
   if (columns > 1) {
     const double span = columns * (column_px + gap_px) - gap_px;
     const double used = std::min(span, rows_.size() > 4 ? span : column_px);
-    while (begin < rows_.size() && rows_[begin].kind != Row::Kind::entry) {
+    for (bool heading = false; begin < rows_.size() && !heading;) {
       const Row& row = rows_[begin++];
-      draw_row(part, row, x, y, row.kind == Row::Kind::ramp ? column_px : used);
+      heading = row.kind == Row::Kind::heading;
+      draw_row(part, row, x, y, heading ? used : column_px);
       y += height_px(row);
       most_height_px -= height_px(row);
     }
@@ -168,6 +170,7 @@ void Legend::draw_row(Part& part, const Row& row, double x, double y, double wid
   switch (row.kind) {
     case Row::Kind::heading: {
       const Font font{15 * u, true};
+      if (row.apart) y += 12 * u;
       const double aside = row.second.empty() ? 0 : width_px(row.second, font);
       part.marks.push_back(Text{x, y + 16 * u, fitted(row.first, font, width - aside - 10 * u), font, ink_colour});
       if (aside > 0) part.marks.push_back(Text{x + width, y + 16 * u, row.second, font, ink_colour, Anchor::end});

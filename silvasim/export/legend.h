@@ -28,7 +28,8 @@ class Legend {
     std::string first, second;  // names: common and scientific, or heading
     Colour colour = 0;
     std::uint64_t plants = 0;
-    std::string aside;  // share, or mean probability
+    std::string aside;   // share, or mean probability
+    bool apart = false;  // stands below entries, with room above
   };
   double height_px(const Row& row) const;
   void draw_row(Part& part, const Row& row, double x, double y, double width) const;

@@ -11,7 +11,7 @@
 //   land, a width out of range, probabilities that the ecosystem does not hold); base::Error where a file cannot be
 //   written.
 // Threads: works in parallel inside.
-// Cost: 5 million plants in 1600 pixels: PNG 0.6 s on two cores, SVG 0.6 s and about 5 MB.
+// Cost: 5 million plants in 1600 pixels on two cores: PNG 0.6 s and 2.4 MB, SVG 0.35 s and 3.6 MB.
 #pragma once
 
 #include <cstddef>
