@@ -13,43 +13,36 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::vector<std::uint64_t> count(const ecosystem::Layer& layer) {
-  std::vector<std::uint64_t> counts(layer.species.size(), 0);
-  for (const ecosystem::PlantId plant : layer.plants) {
-    if (plant != ecosystem::no_plant) ++counts[plant];
-  }
-  return counts;
-}
-
-Json as_json(const ecosystem::Ecosystem& e, const Path& path, const fields::FrameReport& frame) {
+Json as_json(const ecosystem::Summary& summary, const Path& path, const fields::FrameReport& frame) {
+  const ecosystem::Ecosystem& e = summary.ecosystem;
   Json json;
   json["name"] = e.name;
   json["file"] = path.filename().string();
-  json["bytes"] = std::filesystem::file_size(path);
+  json["bytes"] = summary.file_bytes;
+  json["format"] = fmt::format("{}.{}", summary.format_major, summary.format_minor);
   json["extent"] = {{"west", e.extent.west}, {"south", e.extent.south}, {"east", e.extent.east}, {"north", e.extent.north}};
   json["crs_wkt"] = e.crs_wkt;
   if (frame.centre) json["centre"] = {{"latitude", frame.centre->latitude_deg}, {"longitude", frame.centre->longitude_deg}};
   json["terrain"] = {{"columns", e.terrain.columns}, {"rows", e.terrain.rows}};
   std::uint64_t sites = 0, plants = 0;
   json["layers"] = Json::array();
-  for (const ecosystem::Layer& layer : e.layers) {
+  for (std::size_t k = 0; k < e.layers.size(); ++k) {
+    const ecosystem::Layer& layer = e.layers[k];
+    const ecosystem::Summary::Plants& held = summary.plants[k];
     Json species = Json::array();
-    std::uint64_t in_layer = 0;
-    const auto counts = count(layer);
-    for (std::size_t s = 0; s < counts.size(); ++s) {
-      in_layer += counts[s];
+    for (std::size_t s = 0; s < held.by_species.size(); ++s) {
       species.push_back({{"name", layer.species[s].name}, {"common_name", layer.species[s].common_name},
-                         {"colour", fmt::format("#{:06x}", layer.species[s].colour)}, {"model", layer.species[s].model}, {"plants", counts[s]}});
+                         {"colour", fmt::format("#{:06x}", layer.species[s].colour)}, {"model", layer.species[s].model}, {"plants", held.by_species[s]}});
     }
-    sites += layer.plants.size();
-    plants += in_layer;
+    sites += held.sites;
+    plants += held.standing;
     json["layers"].push_back({{"name", layer.name},
-                              {"sites", layer.plants.size()},
-                              {"plants", in_layer},
+                              {"sites", held.sites},
+                              {"plants", held.standing},
                               {"tiles", {{"columns", layer.tiling.columns}, {"rows", layer.tiling.rows},
                                          {"kinds", layer.tile_set.tiles.size()}, {"side_m", layer.tile_set.side_m}}},
                               {"most_radius_m", layer.tile_set.most_radius_m},
-                              {"probabilities", !layer.probabilities.empty()},
+                              {"probabilities", held.probabilities},
                               {"species", species}});
   }
   json["sites"] = sites;
@@ -58,8 +51,9 @@ Json as_json(const ecosystem::Ecosystem& e, const Path& path, const fields::Fram
   return json;
 }
 
-void print(const ecosystem::Ecosystem& e, const Path& path, const fields::FrameReport& frame) {
-  fmt::print("{}  ({}, {})\n", e.name, path.string(), bytes_text(std::filesystem::file_size(path)));
+void print(const ecosystem::Summary& summary, const Path& path, const fields::FrameReport& frame) {
+  const ecosystem::Ecosystem& e = summary.ecosystem;
+  fmt::print("{}  ({}, {})\n", e.name, path.string(), bytes_text(summary.file_bytes));
   fmt::print("extent   {:.2f} to {:.2f} east, {:.2f} to {:.2f} north; {:.2f} x {:.2f} km\n", e.extent.west, e.extent.east, e.extent.south,
              e.extent.north, e.extent.width() / 1000, e.extent.height() / 1000);
   if (frame.centre) {
@@ -70,16 +64,15 @@ void print(const ecosystem::Ecosystem& e, const Path& path, const fields::FrameR
     fmt::print("place    local metres, without a place on the earth\n");
   }
   if (e.terrain.columns > 0) fmt::print("terrain  {} x {} cells of {:.2f} m\n", e.terrain.columns, e.terrain.rows, e.terrain.cell_width_m);
-  for (const ecosystem::Layer& layer : e.layers) {
-    const auto counts = count(layer);
-    std::uint64_t plants = 0;
-    for (const std::uint64_t c : counts) plants += c;
-    fmt::print("layer    {}: {} plants on {} sites; {} x {} tiles of {:g} m, {} kinds{}\n", layer.name, grouped(plants),
-               grouped(layer.plants.size()), layer.tiling.columns, layer.tiling.rows, layer.tile_set.side_m, layer.tile_set.tiles.size(),
-               layer.probabilities.empty() ? "" : ", with probabilities");
-    for (std::size_t s = 0; s < counts.size(); ++s) {
-      fmt::print("  {:<28} {:<28} {:>14} {:5.1f} %\n", layer.species[s].name, layer.species[s].common_name, grouped(counts[s]),
-                 plants > 0 ? 100.0 * static_cast<double>(counts[s]) / static_cast<double>(plants) : 0.0);
+  for (std::size_t k = 0; k < e.layers.size(); ++k) {
+    const ecosystem::Layer& layer = e.layers[k];
+    const ecosystem::Summary::Plants& held = summary.plants[k];
+    fmt::print("layer    {}: {} plants on {} sites; {} x {} tiles of {:g} m, {} kinds{}\n", layer.name, grouped(held.standing),
+               grouped(held.sites), layer.tiling.columns, layer.tiling.rows, layer.tile_set.side_m, layer.tile_set.tiles.size(),
+               held.probabilities ? ", with probabilities" : "");
+    for (std::size_t s = 0; s < held.by_species.size(); ++s) {
+      fmt::print("  {:<28} {:<28} {:>14} {:5.1f} %\n", layer.species[s].name, layer.species[s].common_name, grouped(held.by_species[s]),
+                 held.standing > 0 ? 100.0 * static_cast<double>(held.by_species[s]) / static_cast<double>(held.standing) : 0.0);
     }
   }
   const Json provenance = Json::parse(e.provenance_json, nullptr, false);
@@ -92,12 +85,12 @@ void print(const ecosystem::Ecosystem& e, const Path& path, const fields::FrameR
 }  // namespace
 
 void info(const InfoOptions& options) {
-  const ecosystem::Ecosystem e = ecosystem::read(options.ecosystem);
-  const fields::FrameReport frame = fields::report_frame({e.crs_wkt, "", e.extent});
+  const ecosystem::Summary summary = ecosystem::read_summary(options.ecosystem);
+  const fields::FrameReport frame = fields::report_frame({summary.ecosystem.crs_wkt, "", summary.ecosystem.extent});
   if (options.common.json) {
-    fmt::print("{}\n", as_json(e, options.ecosystem, frame).dump(2));
+    fmt::print("{}\n", as_json(summary, options.ecosystem, frame).dump(2));
   } else {
-    print(e, options.ecosystem, frame);
+    print(summary, options.ecosystem, frame);
   }
 }
 
