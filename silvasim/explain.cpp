@@ -32,7 +32,7 @@ void for_sites_around(const GrownLayer& grown, base::Point at, double reach_m, V
   for (int row = tile(grown.north_west.y - at.y - reach_m, rows); row <= tile(grown.north_west.y - at.y + reach_m, rows); ++row) {
     for (int column = tile(at.x - grown.north_west.x - reach_m, columns);
          column <= tile(at.x - grown.north_west.x + reach_m, columns); ++column) {
-      const auto position = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+      const std::size_t position = grown.tiling.position(column, row);
       const auto& sites = grown.tile_set.tiles[grown.tiling.tiles[position]].sites;
       const base::Point origin{grown.north_west.x + column * side, grown.north_west.y - (row + 1) * side};
       for (std::size_t k = 0; k < sites.size(); ++k) {

@@ -1,8 +1,7 @@
 // What a simulation yields, as plain values: everything that SilvaVis, exports and quick looks need, and nothing else.
 //
-// Not every value of these structs makes sense; problem_with() in validity.h says what is wrong, and the file room
-// neither writes nor reads such. Source: Silva 2013, section 4.5; the file is described byte for byte in
-// docs/ecosystem-file.md.
+// Promise: none of the structs alone; validity.h says what must hold, and only what is valid is written or read.
+// Source: Silva 2013, section 4.5; the file is described byte for byte in docs/ecosystem-file.md.
 #pragma once
 
 #include <array>
@@ -99,8 +98,7 @@ void for_each_plant(const Layer& layer, const std::vector<std::uint64_t>& offset
                     Visit&& visit) {
   for (int row = first_row; row < last_row; ++row) {
     for (int column = 0; column < layer.tiling.columns; ++column) {
-      const std::size_t position = static_cast<std::size_t>(row) * static_cast<std::size_t>(layer.tiling.columns) +
-                                   static_cast<std::size_t>(column);
+      const std::size_t position = layer.tiling.position(column, row);
       const auto& sites = layer.tile_set.tiles[layer.tiling.tiles[position]].sites;
       const base::Point origin = tile_origin(layer, column, row);
       for (std::size_t s = 0; s < sites.size(); ++s) {

@@ -59,8 +59,7 @@ void for_each_plant_near(const ecosystem::Layer& layer, const std::vector<std::u
   const int last_row = std::min(layer.tiling.rows - 1, tile(layer.north_west.y - box.south, layer.tiling.rows));
   for (int row = first_row; row <= last_row; ++row) {
     for (int column = first_column; column <= last_column; ++column) {
-      const std::size_t position = static_cast<std::size_t>(row) * static_cast<std::size_t>(layer.tiling.columns) +
-                                   static_cast<std::size_t>(column);
+      const std::size_t position = layer.tiling.position(column, row);
       const auto& sites = layer.tile_set.tiles[layer.tiling.tiles[position]].sites;
       const base::Point origin = ecosystem::tile_origin(layer, column, row);
       const ecosystem::PlantId* plants = layer.plants.data() + offsets[position];

@@ -32,8 +32,7 @@ std::span<const SitePair> CornerOverlaps::between(QuarterTile a, QuarterTile b, 
 }
 
 std::vector<std::uint32_t> CornerOverlaps::sites_near(std::size_t quarter, const tiles::Tile& tile) const {
-  // The vertex in the tile's own frame: a western tile touches it with its eastern side, a southern one with its
-  // northern.
+  // The vertex in the tile's own frame: a western tile touches it with its eastern side, a southern one from below.
   const double x = column_of(quarter) == 0 ? set_.side_m : 0;
   const double y = row_of(quarter) == 1 ? set_.side_m : 0;
   const double reach = 4 * set_.most_radius_m;

@@ -2,9 +2,9 @@
 // once for all vertices at which the same tiles meet.
 //
 // Promise: only sites within 4 Rmax of the vertex (along x and along y) are looked at.
-// Cost: a table entry for each two tiles that meet, for tile sets of up to 256 tiles; larger ones search at each
-// vertex. Threads: between() may be called from several, each with a `scratch` of its own. Source: Silva 2013,
-// section 4.4; docs/reading.md, A3.
+// Cost: a table entry for each two tiles that meet, up to 256 tiles; larger sets are searched at each vertex.
+// Threads: between() may be called from several, each with a `scratch` of its own.
+// Source: Silva 2013, section 4.4; docs/reading.md, A3.
 #pragma once
 
 #include <cstddef>

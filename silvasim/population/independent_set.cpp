@@ -58,8 +58,7 @@ class BranchAndBound {
       const int node = std::countr_zero(open);
       const std::uint64_t bit = std::uint64_t{1} << node;
       const std::uint64_t rivals = rows_[node] & open;
-      // A node that outweighs all its rivals together stays in some best set, and the lowest one in the set that wins
-      // ties.
+      // A node that outweighs all its rivals together stays in some best set, and as the lowest open one it wins ties.
       if (weight_of(rivals) > weights_[static_cast<std::size_t>(node)]) {
         if (!worth(weight + bound(open))) return true;
         if (!search(open & ~bit & ~rivals, kept | bit, weight + weights_[static_cast<std::size_t>(node)])) return false;

@@ -39,10 +39,22 @@ NeighbourhoodBlock::Result NeighbourhoodBlock::run(int column, int row, int pass
   return result;
 }
 
-void NeighbourhoodBlock::load(const Population& population, int pass) {
+template <typename Visit>
+void NeighbourhoodBlock::for_sites_of_tile(int column, int row, Visit&& visit) const {
   const evaluators::Ground& ground = shared_.ground;
-  const std::size_t species = shared_.suitability.species;
   const auto side = static_cast<float>(ground.tile_set.side_m);
+  const std::size_t position = ground.tiling.position(column, row);
+  const auto& sites = ground.tile_set.tiles[ground.tiling.tiles[position]].sites;
+  const float west = static_cast<float>(column - origin_.first_column) * side;
+  const float north = static_cast<float>(row - origin_.first_row) * side;
+  for (std::size_t k = 0; k < sites.size(); ++k) {
+    visit(west + sites[k].x_m, north + (side - sites[k].y_m), sites[k].radius_m, ground.offsets[position] + k,
+          static_cast<std::uint32_t>(k));
+  }
+}
+
+void NeighbourhoodBlock::load(const Population& population, int pass) {
+  const std::size_t species = shared_.suitability.species;
   const int cells = shared_.layout.cells;
   const auto cell_m = static_cast<float>(shared_.layout.cell_m);
 
@@ -57,20 +69,14 @@ void NeighbourhoodBlock::load(const Population& population, int pass) {
   cell_start_.assign(static_cast<std::size_t>(cells) * static_cast<std::size_t>(cells) + 1, 0);
   for (int row = origin_.first_row; row < origin_.last_row; ++row) {
     for (int column = origin_.first_column; column < origin_.last_column; ++column) {
-      const std::size_t position =
-          static_cast<std::size_t>(row) * static_cast<std::size_t>(ground.tiling.columns) + static_cast<std::size_t>(column);
-      const auto& sites = ground.tile_set.tiles[ground.tiling.tiles[position]].sites;
-      const float west = static_cast<float>(column - origin_.first_column) * side;
-      const float north = static_cast<float>(row - origin_.first_row) * side;
-      for (std::size_t k = 0; k < sites.size(); ++k) {
-        const float x = west + sites[k].x_m, y = north + (side - sites[k].y_m);
+      for_sites_of_tile(column, row, [&](float x, float y, float radius, std::uint64_t index, std::uint32_t site) {
         const int i = std::clamp(static_cast<int>(x / cell_m), 0, cells - 1);
         const int j = std::clamp(static_cast<int>(y / cell_m), 0, cells - 1);
         const auto cell = static_cast<std::uint32_t>(j * cells + i);
         ++cell_start_[cell + 1];
-        found.push_back({x, y, sites[k].radius_m, cell, ground.offsets[position] + k,
-                         {static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(k)}});
-      }
+        found.push_back(
+            {x, y, radius, cell, index, {static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), site}});
+      });
     }
   }
   for (std::size_t c = 1; c < cell_start_.size(); ++c) cell_start_[c] += cell_start_[c - 1];
@@ -123,17 +129,11 @@ void NeighbourhoodBlock::weigh_surroundings(const Population& population) {
       const bool inside = row >= origin_.first_row && row < origin_.last_row && column >= origin_.first_column &&
                           column < origin_.last_column;
       if (inside) continue;
-      const std::size_t position =
-          static_cast<std::size_t>(row) * static_cast<std::size_t>(ground.tiling.columns) + static_cast<std::size_t>(column);
-      const auto& sites = ground.tile_set.tiles[ground.tiling.tiles[position]].sites;
-      const float west = static_cast<float>(column - origin_.first_column) * side;
-      const float north = static_cast<float>(row - origin_.first_row) * side;
-      for (std::size_t k = 0; k < sites.size(); ++k) {
-        const float x = west + sites[k].x_m, y = north + (side - sites[k].y_m);
-        if (x < -reach || y < -reach || x > width + reach || y > height + reach) continue;
-        const ecosystem::PlantId plant = population.plants[ground.offsets[position] + k];
-        if (plant != ecosystem::no_plant) act(x, y, sites[k].radius_m, plant, nobody);
-      }
+      for_sites_of_tile(column, row, [&](float x, float y, float radius, std::uint64_t index, std::uint32_t) {
+        if (x < -reach || y < -reach || x > width + reach || y > height + reach) return;
+        const ecosystem::PlantId plant = population.plants[index];
+        if (plant != ecosystem::no_plant) act(x, y, radius, plant, nobody);
+      });
     }
   }
 }

@@ -65,6 +65,10 @@ class NeighbourhoodBlock {
   // Cells along one axis that a stretch of local coordinates touches; first > last where none.
   std::pair<int, int> cells_between(float from, float to) const;
 
+  // Calls visit(x, y, radius, index in the population, site id) for the sites of a tile, in the block's local metres.
+  template <typename Visit>
+  void for_sites_of_tile(int column, int row, Visit&& visit) const;
+
   template <typename Visit>
   void for_sites_near(float x, float y, float reach, Visit&& visit) const;
 

@@ -13,7 +13,7 @@
 // Promise: every site is fixed once a pass; same bytes whatever the threads; without influences the same plants as
 //   establish().
 // Memory: nothing but the population for all sites; probabilities are copied a block at a time.
-// Source: Silva 2013, section 4.3; docs/reading.md, C1 to C5; docs/decisions.md for where this departs from them.
+// Source: Silva 2013, section 4.3; docs/reading.md, C1 to C5.
 #pragma once
 
 #include <cstdint>

@@ -62,7 +62,7 @@ Population establish(const evaluators::Suitability& suitability, const evaluator
   std::atomic<int> done{0};
   base::parallel_for(static_cast<std::size_t>(rows), [&](std::size_t row) {
     for (int column = 0; column < columns; ++column) {
-      const std::size_t position = row * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+      const std::size_t position = ground.tiling.position(column, static_cast<int>(row));
       for (std::uint64_t i = ground.offsets[position]; i < ground.offsets[position + 1]; ++i) {
         const SiteKey key{static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row),
                           static_cast<std::uint32_t>(i - ground.offsets[position])};

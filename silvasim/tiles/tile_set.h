@@ -52,9 +52,11 @@ struct Tiling {
   int rows = 0;
   std::vector<std::uint16_t> tiles;  // rows * columns indices into TileSet::tiles, row by row
 
-  std::uint16_t at(int column, int row) const {
-    return tiles[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
+  // Index of a tile position in the tiling's order.
+  std::size_t position(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
   }
+  std::uint16_t at(int column, int row) const { return tiles[position(column, row)]; }
 
   friend bool operator==(const Tiling&, const Tiling&) = default;
 };
