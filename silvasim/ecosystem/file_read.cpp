@@ -113,8 +113,7 @@ void refuse(const ChunkFile& file, const Chunk& chunk, const std::string& proble
   if (!problem.empty()) file.fail(chunk, problem);
 }
 
-// Bands lie one after another and together hold rows [0, rows). `items_before(row)` counts the items of the rows
-// before.
+// Bands lie one after another and hold rows [0, rows) together. `items_before(row)` counts what the rows before hold.
 template <typename ItemsBefore>
 void check_bands(const ChunkFile& file, const std::vector<ChunkRef>& bands, ChunkType type, std::uint64_t rows,
                  std::uint64_t bytes_an_item, ItemsBefore items_before) {

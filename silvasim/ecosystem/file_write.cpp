@@ -16,8 +16,7 @@ namespace silvasim::ecosystem {
 
 namespace {
 
-// A band holds about this many sites or heights: enough for zstd to learn from, few enough for many threads and
-// windows.
+// A band holds about this many sites or heights: enough for zstd to learn from, few enough to share among threads.
 constexpr std::uint64_t band_size = 1 << 18;
 
 struct Job {

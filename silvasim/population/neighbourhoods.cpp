@@ -1,7 +1,6 @@
 #include "silvasim/population/neighbourhoods.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 
@@ -74,7 +73,8 @@ Competition compete(const evaluators::Suitability& suitability, const evaluators
   for (int pass = 0; pass < layer.neighbourhoods.passes; ++pass) {
     std::atomic<std::uint64_t> changed{0}, fixings{0};
     // Four colours: blocks of one colour have a block between them, so none reads what another writes.
-    for (const auto& [first_column, first_row] : std::array<std::pair<int, int>, 4>{{{0, 0}, {1, 0}, {0, 1}, {1, 1}}}) {
+    for (int colour = 0; colour < 4; ++colour) {
+      const int first_column = colour % 2, first_row = colour / 2;
       const int columns = (layout.columns - first_column + 1) / 2, rows = (layout.rows - first_row + 1) / 2;
       base::parallel_for(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), [&](std::size_t k) {
         const int column = first_column + 2 * static_cast<int>(k % static_cast<std::size_t>(columns));
