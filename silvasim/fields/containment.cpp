@@ -6,29 +6,21 @@
 #include <cpl_vsi_virtual.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
-#include <sqlite3.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <set>
-#include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "silvasim/base/error.h"
-#include "silvasim/base/progress.h"
 
 namespace silvasim::fields {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr int steps_a_call = 1 << 20;
-thread_local std::int64_t sqlite_calls_left = -1;  // -1: no budget
-thread_local bool sqlite_stopped = false;
 
 // Answers every question about files with "there is none".
 class DenyingFileSystem : public VSIFilesystemHandler {
@@ -46,13 +38,13 @@ class DenyingFileSystem : public VSIFilesystemHandler {
 };
 
 void deny_virtual_file_systems() {
-  // The replaced handlers are kept in sight, since GDAL's manager forgets them without destroying them.
-  static std::set<VSIFilesystemHandler*> replaced;
+  // GDAL's manager forgets the replaced handlers without destroying them; kept in sight, they are no leak.
+  static auto* const replaced = new std::set<VSIFilesystemHandler*>;
   static auto* const denying = new DenyingFileSystem;  // the manager destroys it
   char** const prefixes = VSIGetFileSystemsPrefixes();
   for (char** prefix = prefixes; prefix && *prefix; ++prefix) {
     if (std::strcmp(*prefix, "/vsimem/") == 0 || **prefix == '\0') continue;
-    replaced.insert(VSIFileManager::GetHandler(*prefix));
+    replaced->insert(VSIFileManager::GetHandler(*prefix));
     VSIFileManager::InstallHandler(*prefix, denying);
   }
   CSLDestroy(prefixes);
@@ -97,39 +89,6 @@ CPLHTTPResult* refuse_http(const char*, CSLConstList, GDALProgressFunc, void*, C
   return result;
 }
 
-int count_sqlite_steps(void*) {
-  if (base::interrupted()) return 1;
-  if (sqlite_calls_left < 0) return 0;
-  if (sqlite_calls_left == 0)
-    sqlite_stopped = true;
-  else
-    --sqlite_calls_left;
-  return sqlite_stopped ? 1 : 0;
-}
-
-// GDAL gives SQL functions that open files, send requests and change its settings; a view or trigger may call them.
-int authorise_sqlite(void*, int action, const char*, const char* name, const char*, const char*) {
-  if (action == SQLITE_ATTACH || action == SQLITE_DETACH) return SQLITE_DENY;
-  if (action != SQLITE_FUNCTION || !name) return SQLITE_OK;
-  std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  const std::string_view word = lower;
-  const bool outward = word.starts_with("ogr_") || word.starts_with("gdal_") || word == "load_extension" ||
-                       word == "readfile" || word == "writefile" || word == "zeroblob" || word == "randomblob";
-  return outward ? SQLITE_DENY : SQLITE_OK;
-}
-
-int guard_connection(sqlite3* connection, char**, const sqlite3_api_routines*) {
-  sqlite3_progress_handler(connection, steps_a_call, count_sqlite_steps, nullptr);
-  if (sqlite3_db_readonly(connection, "main") != 1) return SQLITE_OK;
-  constexpr int longest_value = 256 << 20;
-  sqlite3_limit(connection, SQLITE_LIMIT_LENGTH, longest_value);
-  sqlite3_db_config(connection, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
-  sqlite3_set_authorizer(connection, authorise_sqlite, nullptr);
-  return SQLITE_OK;
-}
-
 }  // namespace
 
 void contain_gdal() {
@@ -142,8 +101,6 @@ void contain_gdal() {
   GDALSetCacheMax64(cache_bytes);
   CPLSetConfigOption("GDAL_PAM_ENABLE_MARK_DIRTY", "NO");  // reading leaves no file behind
   CPLSetConfigOption("OGR_SQLITE_LOAD_EXTENSIONS", nullptr);
-
-  sqlite3_auto_extension(reinterpret_cast<void (*)()>(guard_connection));
 }
 
 std::string contained_name(const fs::path& path) {
@@ -162,15 +119,5 @@ std::string contained_name(const fs::path& path) {
     throw base::Error("cannot read \"" + text + "\": names that begin with /vsi are GDAL's");
   return absolute.native();
 }
-
-SqliteBudget::SqliteBudget(std::uint64_t file_bytes) {
-  // Reading takes about 2 to 4 steps a byte of the file; a small file gets half a second.
-  sqlite_calls_left = static_cast<std::int64_t>((100'000'000 + 100 * file_bytes) / steps_a_call);
-  sqlite_stopped = false;
-}
-
-SqliteBudget::~SqliteBudget() { sqlite_calls_left = -1; }
-
-bool SqliteBudget::exhausted() const { return sqlite_stopped; }
 
 }  // namespace silvasim::fields

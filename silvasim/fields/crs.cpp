@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include "silvasim/base/error.h"
@@ -23,6 +25,21 @@ Crs prepared(OGRSpatialReference reference) {
   return std::make_shared<const OGRSpatialReference>(std::move(reference));
 }
 
+// PROJ strings and WKT can name files with parameters, which PROJ would open: "+init=/a/file:1", "+nadgrids=/a/file",
+// PARAMETERFILE["...", "/a/file"]. Names without a folder are PROJ's own and harmless.
+bool names_a_file(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  for (const std::string_view key : {"init=", "grids=", "file=", "parameterfile["}) {
+    for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
+      const std::size_t end = text.find_first_of(key.back() == '[' ? "]" : " +\t\n", at + key.size());
+      const std::string_view value = std::string_view(text).substr(at, end == std::string::npos ? end : end - at);
+      if (value.find_first_of("/\\") != std::string_view::npos) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 Crs crs_from_text(const std::string& text) {
@@ -30,6 +47,7 @@ Crs crs_from_text(const std::string& text) {
   constexpr std::size_t longest = 64 << 10;
   if (text.size() > longest) throw base::Error("the text of the CRS is longer than 64 kB");
   const std::string shown = text.size() > 80 ? text.substr(0, 80) + "..." : text;
+  if (names_a_file(text)) throw base::Error("\"" + shown + "\" names a file; a CRS may not");
   static const char* const limits[] = {"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
   GdalLog log;
   OGRSpatialReference reference;
@@ -43,7 +61,8 @@ Crs crs_from_text(const std::string& text) {
 Crs crs_from_gdal(const OGRSpatialReference* reference) {
   if (!reference || reference->IsEmpty() || reference->IsLocal()) return nullptr;
   if (!reference->IsProjected() && !reference->IsGeographic()) return nullptr;
-  return prepared(*reference);
+  Crs crs = prepared(*reference);
+  return names_a_file(wkt_of(crs)) ? nullptr : crs;
 }
 
 Crs wgs84() {

@@ -1,5 +1,4 @@
-// The formats that Silva reads and writes. GDAL knows many more; each one less is one less that hostile input can
-// reach.
+// The formats that Silva reads and writes. GDAL knows many more; hostile input can reach none that is not registered.
 #pragma once
 
 #include <string>

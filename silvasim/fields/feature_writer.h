@@ -1,9 +1,11 @@
 // Points and rasters out, as files that GIS programs open. Which columns there are and how they look is the caller's.
 //
-// Every function writes whole to `path` and returns when the file is closed and flushed; a full disk is an error. Give
-// it base::NewFile's path() and commit() afterwards. The same values give the same bytes. Errors: base::Error naming
-// the path; base::Cancelled when `progress` says stop. A half-written file may remain at `path`. Threads: any, one file
-// a call.
+// Every function writes whole to `path` and returns when the file is closed; a full disk is an error. Give it
+// base::NewFile's path() and commit() afterwards. The same values give the same bytes.
+//
+// Errors: base::Error naming the path; base::Cancelled when `progress` says stop; a half-written file may remain.
+//   std::logic_error for columns, blocks or sizes that do not fit each other.
+// Threads: any, one file a call.
 #pragma once
 
 #include <cstddef>
@@ -52,8 +54,7 @@ struct PointBlock {
 };
 
 // Asks `next_block` for blocks until it gives none; a block's spans are read before the next is asked for. Blocks of
-// about 65536 points serve well. `count`, if known, is for the progress (stage "write") only. Cost: on one core about
-// 0.4 million points a second to a GeoPackage with its index, 2 to 4 million to text.
+// about 65536 points serve well. `count`, if known, is for the progress (stage "write") only.
 void write_points(const std::filesystem::path& path, PointFormat format, const PointLayer& layer,
                   const std::function<std::optional<PointBlock>()>& next_block, std::size_t count = 0,
                   const base::Progress& progress = {});

@@ -70,6 +70,12 @@ class Cleaner {
         cut_(near.empty() ? near : grown(near, std::max(near.width(), near.height()))),
         scissors_(near.empty() ? OGRPolygon() : rectangle(cut_)) {}
 
+  bool is_elsewhere(const OGRGeometry& raw) const {
+    if (near_.empty() || raw.IsEmpty() || !is_finite(raw)) return false;
+    const base::Box box = envelope_of(raw);
+    return box.west > near_.east || box.east < near_.west || box.south > near_.north || box.north < near_.south;
+  }
+
   // Null if nothing drawable is left.
   Geometry operator()(const OGRGeometry& raw) const {
     if (raw.IsEmpty() || !is_finite(raw)) return nullptr;
@@ -125,10 +131,8 @@ int attribute_index(const VectorFile& file, const config::FieldSettings& field, 
 
 [[noreturn]] void fail_reading(const VectorFile& file, const config::FieldSettings& field, const GdalLog& log) {
   if (base::interrupted()) throw base::Cancelled();
-  throw base::Error("data field \"" + field.name + "\": cannot read \"" + field.path.string() + "\": " +
-                    (file.budget().exhausted()
-                         ? "its queries take far longer than a file of its size should (a view without end?)"
-                         : log.reason()));
+  throw base::Error("data field \"" + field.name + "\": cannot read \"" + field.path.string() +
+                    "\": " + (file.budget().exhausted() ? endless_query() : log.reason()));
 }
 
 }  // namespace
@@ -139,23 +143,25 @@ BurnCount burn_features(const VectorFile& file, const config::FieldSettings& fie
   OGRLayer& layer = file.layer();
   const int attribute = options.attribute.empty() ? -1 : attribute_index(file, field, options.attribute);
 
-  // Ask for what lies near the raster only.
+  // Ask for what lies near the raster only. (Not GeoJSON: GDAL's filter stumbles over its open rings.)
   base::Box near = bounds(Transformation(scene_crs, layer_crs), raster.extent());
   if (!near.empty()) {
     near = grown(near, std::max(near.width(), near.height()) / 50);
-    layer.SetSpatialFilterRect(near.west, near.south, near.east, near.north);
+    if (!file.format().starts_with("GeoJSON")) layer.SetSpatialFilterRect(near.west, near.south, near.east, near.north);
   }
   const Cleaner clean(layer_crs, scene_crs, near);
   const Dataset target = memory_raster(raster.values, raster.columns, raster.rows);
   std::array<double, 6> transform = {raster.west, raster.cell_width, 0, raster.north, 0, -raster.cell_height};
   target->SetGeoTransform(transform.data());
 
+  // What waits to be burnt, all by the same rule.
   std::vector<Geometry> geometries;
   std::vector<double> numbers;
+  bool touched = false;
   const auto burn = [&] {
     std::vector<OGRGeometryH> handles;
     for (const Geometry& geometry : geometries) handles.push_back(OGRGeometry::ToHandle(geometry.get()));
-    const std::array<const char*, 2> rules = {options.all_touched ? "ALL_TOUCHED=TRUE" : "ALL_TOUCHED=FALSE", nullptr};
+    const std::array<const char*, 2> rules = {touched ? "ALL_TOUCHED=TRUE" : "ALL_TOUCHED=FALSE", nullptr};
     const int band = 1;
     if (!handles.empty() &&
         GDALRasterizeGeometries(target.get(), 1, &band, static_cast<int>(handles.size()), handles.data(), nullptr,
@@ -181,6 +187,7 @@ BurnCount burn_features(const VectorFile& file, const config::FieldSettings& fie
     Geometry geometry;
     {
       GdalLog quiet;  // what is wrong with one feature is no reason to give up the others
+      if (raw && clean.is_elsewhere(*raw)) continue;
       if (raw && !std::isnan(number)) geometry = clean(*raw);
     }
     if (!geometry) {
@@ -188,6 +195,9 @@ BurnCount burn_features(const VectorFile& file, const config::FieldSettings& fie
       continue;
     }
     ++count.burnt;
+    const bool touches = options.all_touched || geometry->getDimension() < 2;
+    if (touches != touched) burn();
+    touched = touches;
     geometries.push_back(std::move(geometry));
     numbers.push_back(number);
     if (geometries.size() == at_once) burn();

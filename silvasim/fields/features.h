@@ -11,7 +11,7 @@ namespace silvasim::fields {
 
 struct BurnOptions {
   std::string attribute;     // burn this attribute's number; "": burn 1
-  bool all_touched = false;  // every cell that a feature touches; else those whose centre it holds (lines: Bresenham's)
+  bool all_touched = false;  // every cell that a polygon touches, else those whose centre it holds; lines: touched
 };
 
 struct BurnCount {
@@ -22,9 +22,9 @@ struct BurnCount {
 // Burns the features over `raster`, whose grid and first values are given, in the file's order (later ones on top).
 //
 // A ring that is not closed is closed; a polygon that crosses itself is filled by the even-odd rule, as is a hole
-// outside its shell; curves are drawn as lines; parts far outside the raster are cut off before they are brought to the
-// scene's CRS. Errors: base::Error for a damaged file; base::ConfigError for an unknown attribute or one that is no
-// number.
+// outside its shell; curves are drawn as lines; long edges follow their own CRS; parts far outside the raster are cut
+// off before they are brought to the scene's CRS.
+// Errors: base::Error for a damaged file; base::ConfigError for an unknown attribute or one that is no number.
 BurnCount burn_features(const VectorFile& file, const config::FieldSettings& field, const Crs& layer_crs,
                         const Crs& scene_crs, const BurnOptions& options, Raster& raster);
 

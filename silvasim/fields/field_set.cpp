@@ -72,6 +72,10 @@ Field derive(const config::FieldSettings& settings, const Field& origin) {
 void name(Field& field, const config::FieldSettings& settings) {
   field.name = settings.name;
   field.kind = settings.kind;
+  // Between 359 and 1 degree lies north, not south: angles are not interpolated.
+  if (settings.source == config::Source::derived && settings.derivation == config::TerrainMeasure::aspect_deg) {
+    field.kind = config::FieldKind::class_code;
+  }
   field.no_data = settings.no_data;
   field.no_data_fill = static_cast<float>(settings.no_data_fill);
 }

@@ -41,7 +41,7 @@ struct FrameReport {
 
 struct Field {
   std::string name;
-  config::FieldKind kind = config::FieldKind::value;
+  config::FieldKind kind = config::FieldKind::value;  // how sample() reads it; aspect, being an angle, is class_code
   config::NoDataPolicy no_data = config::NoDataPolicy::exclude;
   float no_data_fill = 0;  // for NoDataPolicy::fill
   Raster raster;

@@ -20,8 +20,7 @@ using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
 // Opens the file of a raster field, read-only.
 //
 // Errors: base::ConfigError at the field's place: no such file, no format that Silva reads, no such band, complex
-// numbers, a
-//   claim that cannot be true (many more cells than the file has bytes, blocks of gigabytes).
+//   numbers, a claim that cannot be true (many more cells than the file has bytes, blocks of gigabytes).
 // Threads: a dataset belongs to the thread that opened it.
 Dataset open_raster(const config::FieldSettings& field);
 

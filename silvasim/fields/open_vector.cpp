@@ -8,11 +8,13 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <system_error>
 #include <vector>
 
 #include "silvasim/base/error.h"
 #include "silvasim/base/file.h"
+#include "silvasim/fields/containment.h"
 #include "silvasim/fields/drivers.h"
 #include "silvasim/fields/gdal_log.h"
 
@@ -93,6 +95,18 @@ OGRLayer* choose_layer(GDALDataset& dataset, const config::FieldSettings& field)
 }  // namespace
 
 VectorFile::VectorFile(const config::FieldSettings& field) : field_(field), budget_(size_of(field.path)) {
+  try {
+    open();
+  } catch (...) {
+    close();
+    throw;
+  }
+}
+
+VectorFile::~VectorFile() { close(); }
+
+void VectorFile::open() {
+  const config::FieldSettings& field = field_;
   prepare_gdal();
   const std::string shown = "\"" + field.path.string() + "\"";
   std::string name;
@@ -105,8 +119,16 @@ VectorFile::VectorFile(const config::FieldSettings& field) : field_(field), budg
   if (is_lone_shape(field.path)) name = copy_to_memory(field.path, memory_folder_);
   CPLSetThreadLocalConfigOption("SHAPE_RESTORE_SHX", memory_folder_.empty() ? "NO" : "YES");
   const std::vector<const char*> options = open_options(field.path);
+  sqlite_ = is_sqlite(field.path);
+  std::optional<SqliteGate> gate;
+  if (sqlite_) gate.emplace();
   dataset_.reset(GDALDataset::Open(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_INTERNAL,
                                    vector_driver_names(), options.data(), nullptr));
+  if (dataset_ && gate && !gate->guarded()) throw base::Error("SQLite does not let " + shown + " be guarded");
+  gate.reset();
+  if (!dataset_ && budget_.exhausted()) {
+    throw base::Error("data field \"" + field.name + "\": cannot read " + shown + ": " + endless_query());
+  }
   if (!dataset_) {
     const bool unknown = !log.failed() || log.reason().find("not recognized") != std::string::npos;
     fail_at(field,
@@ -123,9 +145,13 @@ VectorFile::VectorFile(const config::FieldSettings& field) : field_(field), budg
   }
 }
 
-VectorFile::~VectorFile() {
+void VectorFile::close() {
   GdalLog log;
-  dataset_.reset();
+  {
+    std::optional<SqliteGate> gate;
+    if (sqlite_) gate.emplace();
+    dataset_.reset();
+  }
   CPLSetThreadLocalConfigOption("SHAPE_RESTORE_SHX", nullptr);
   if (!memory_folder_.empty()) VSIRmdirRecursive(memory_folder_.c_str());
 }

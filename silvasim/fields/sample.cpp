@@ -21,19 +21,16 @@ bool place(double& column, double& row, double columns, double rows) {
   return inside;
 }
 
-// From a position in cells to (lower centre, fraction towards the next centre).
-void between_centres(double position, double last, double& lower, float& fraction) {
+// From a position in cells to the centre before it and the fraction, below 1, of the way to the next.
+void between_centres(double position, double last, std::int32_t& lower, float& fraction) {
   const double centred = std::min(std::max(position - 0.5, 0.0), last);
-  lower = std::floor(centred);
+  lower = static_cast<std::int32_t>(centred + snap_cells);
   const double f = centred - lower;
-  fraction = f < snap_cells ? 0.0f : f > 1 - snap_cells ? 1.0f : static_cast<float>(f);
+  fraction = f < snap_cells ? 0.0f : static_cast<float>(f);
 }
 
-// Exact where both ends are equal and at both ends, which a site on a class's or a plateau's rim relies on.
-float blend(float from, float to, float fraction) {
-  const float step = to - from;
-  return fraction < 0.5f ? from + fraction * step : to - (1 - fraction) * step;
-}
+// Exact at the first end and where both are equal, which a site on a plateau's rim relies on.
+float blend(float from, float to, float fraction) { return from + fraction * (to - from); }
 
 // Some of the four are missing: share out their weights, unless the nearest one is missing.
 bool mend(const float (&value)[4], float u, float v, float& result) {
@@ -55,7 +52,8 @@ bool mend(const float (&value)[4], float u, float v, float& result) {
 void sample(const Raster& raster, config::FieldKind kind, std::span<const double> x, std::span<const double> y,
             std::span<float> value, std::span<std::uint8_t> no_data) {
   assert(x.size() == y.size() && x.size() == value.size() && x.size() == no_data.size());
-  const double columns = raster.columns, rows = raster.rows;
+  const double columns = raster.columns, rows = raster.rows, west = raster.west, north = raster.north;
+  const double across = 1 / raster.cell_width, along = 1 / raster.cell_height;  // cells a metre
   const auto width = static_cast<std::size_t>(raster.columns);
   const float* const cells = raster.values.data();
   if (raster.columns <= 0 || raster.rows <= 0) {
@@ -66,7 +64,7 @@ void sample(const Raster& raster, config::FieldKind kind, std::span<const double
 
   if (kind == config::FieldKind::class_code) {
     for (std::size_t i = 0; i < x.size(); ++i) {
-      double column = (x[i] - raster.west) / raster.cell_width, row = (raster.north - y[i]) / raster.cell_height;
+      double column = (x[i] - west) * across, row = (north - y[i]) * along;
       const bool inside = place(column, row, columns, rows);
       const auto c = static_cast<std::size_t>(std::min(std::max(column, 0.0), columns - 1));
       const auto r = static_cast<std::size_t>(std::min(std::max(row, 0.0), rows - 1));
@@ -79,13 +77,13 @@ void sample(const Raster& raster, config::FieldKind kind, std::span<const double
   }
 
   for (std::size_t i = 0; i < x.size(); ++i) {
-    double column = (x[i] - raster.west) / raster.cell_width, row = (raster.north - y[i]) / raster.cell_height;
+    double column = (x[i] - west) * across, row = (north - y[i]) * along;
     const bool inside = place(column, row, columns, rows);
-    double c = 0, r = 0;
+    std::int32_t c = 0, r = 0;
     float u = 0, v = 0;
     between_centres(column, columns - 1, c, u);
     between_centres(row, rows - 1, r, v);
-    const std::size_t right = c + 1 < columns ? 1 : 0, down = r + 1 < rows ? width : 0;
+    const std::size_t right = c + 1 < raster.columns ? 1 : 0, down = r + 1 < raster.rows ? width : 0;
     const float* const four = cells + static_cast<std::size_t>(r) * width + static_cast<std::size_t>(c);
     const float values[4] = {four[0], four[right], four[down], four[down + right]};
     float result = blend(blend(values[0], values[1], u), blend(values[2], values[3], u), v);

@@ -21,8 +21,7 @@ namespace silvasim::fields {
 // Cost: about 10 ns a cell; tpi with a radius 2 ns a cell and line of the disc; wetness 0.3 microseconds a cell.
 Raster derive(config::TerrainMeasure measure, const Raster& heights, double radius_m = 0);
 
-// How far around the scene the heights should be known for this measure, in metres (besides three cells): flow comes
-// from far.
+// How far around the scene the heights should be known for this measure, in metres: flow comes from far.
 double needed_margin_m(config::TerrainMeasure measure, double radius_m, double longer_side_m);
 
 }  // namespace silvasim::fields

@@ -59,8 +59,13 @@ struct Layer {
 // world has no box in the scene's.
 void require_overlap(const Layer& layer, const Frame& frame, double reach_m) {
   const base::Box own = layer.file.extent();
+  if (layer.file.budget().exhausted()) {
+    throw base::Error("data field \"" + layer.field.name + "\": cannot read \"" + layer.field.path.string() +
+                      "\": " + endless_query());
+  }
   if (!(own.west <= own.east && own.south <= own.north)) {
-    fail_at(layer.field, "\"" + layer.field.path.string() + "\" holds no feature with a geometry");
+    const std::string what = "\"" + layer.field.path.string() + "\" holds no feature with a geometry";
+    fail_at(layer.field, layer.field.where.empty() ? what : what + " that fulfils where=\"" + layer.field.where + "\"");
   }
   const base::Box scene = bounds(Transformation(layer.scene_crs, layer.crs), grown(frame.extent, reach_m));
   const bool apart = scene.empty() || own.west > scene.east || own.east < scene.west || own.south > scene.north ||
@@ -78,8 +83,7 @@ BurnCount burn(const Layer& layer, const BurnOptions& options, Raster& raster) {
   return burn_features(layer.file, layer.field, layer.crs, layer.scene_crs, options, raster);
 }
 
-// Nothing drawn near the scene is a fact about the land, but not if the filter keeps nothing anywhere, or all is
-// broken.
+// Nothing drawn near the scene may be a fact about the land, but not if the filter keeps nothing or all is broken.
 void check_count(const Layer& layer, const BurnCount& count) {
   if (count.burnt > 0) return;
   if (count.skipped > 0) {
@@ -94,7 +98,7 @@ void check_count(const Layer& layer, const BurnCount& count) {
   const std::unique_ptr<OGRFeature> any(ogr.GetNextFeature());
   if (!any)
     fail_at(layer.field,
-            "no feature of \"" + layer.field.path.string() + "\" fulfils where=\"" + layer.field.where + "\"");
+            "\"" + layer.field.path.string() + "\" holds no feature that fulfils where=\"" + layer.field.where + "\"");
 }
 
 // Distances in metres from every cell to the nearest one above zero; -1 where there is none.
@@ -115,8 +119,7 @@ std::vector<float> distances(Raster& burnt) {
   return result;
 }
 
-// A larger and larger surrounding is looked at, until it is at least as wide as the largest distance found in the
-// scene.
+// Looks at larger and larger surroundings, until they are as wide as the largest distance found in the scene.
 Raster distance_field(const Layer& layer, const Frame& frame, double cell, double reach_m, BurnCount& count) {
   const double longer = std::max(frame.extent.width(), frame.extent.height());
   double margin_m = std::min(reach_m, std::max(longer / 20, 8 * cell));

@@ -70,8 +70,7 @@ PixelBounds PixelMap::bounds(const base::Box& window) const {
 }
 
 CellSize PixelMap::cell_size(const base::Box& window) const {
-  // Of the lattice's points inside the file take the one nearest to the window's middle; ask how fast the pixels run
-  // there.
+  // Of the points inside the file take the one nearest to the window's middle; ask how fast the pixels run there.
   std::vector<double> x, y;
   lattice(window, 64, x, y);
   std::vector<double> column = x, row = y;

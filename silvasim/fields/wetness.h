@@ -11,8 +11,7 @@ namespace silvasim::fields {
 // itself; the slope Horn's, at least 0.001, so that flats are wet and finite.
 //
 // No data: where the heights have none. Water leaves over the grid's rim and into cells without data, so near the rim
-// the
-//   index is too low where more ground would lie uphill beyond it.
+//   the index is too low where more ground would lie uphill beyond it.
 // Promise: the same bytes on every machine. Source: Beven and Kirkby 1979.
 Raster wetness_index(const Raster& heights);
 
@@ -20,8 +19,7 @@ Raster wetness_index(const Raster& heights);
 //
 // Depressions are filled by a priority flood (Barnes, Lehman and Mulla 2014). Water then runs to all lower neighbours,
 // in proportion to the slope towards them times the length of contour that faces them (Quinn et al. 1991); on a flat it
-// runs the way by which the flood came, which leads to its outlet. No water is lost: what leaves over the rim is what
-// fell.
+// runs the way by which the flood came, which leads to its outlet. What leaves over the rim is what fell.
 std::vector<double> catchment_area_m2(const Raster& heights);
 
 // The heights with every depression filled to its lowest outlet.

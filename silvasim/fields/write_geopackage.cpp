@@ -4,14 +4,15 @@
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
-#include <cmath>
 #include <memory>
 #include <system_error>
 
 #include "silvasim/base/error.h"
 #include "silvasim/fields/crs.h"
+#include "silvasim/fields/fill_geopackage.h"
 #include "silvasim/fields/gdal_log.h"
 #include "silvasim/fields/open.h"
+#include "silvasim/fields/sqlite_guard.h"
 
 namespace silvasim::fields {
 
@@ -42,7 +43,7 @@ class Package {
   }
 
   ~Package() {
-    dataset_.reset();
+    drop();
     std::error_code ignored;
     for (const char* const rest : {"-journal", "-wal", "-shm"}) std::filesystem::remove(path_.string() + rest, ignored);
   }
@@ -54,17 +55,22 @@ class Package {
   }
 
   void close() {
-    dataset_.reset();
+    drop();
     require(true);
   }
 
  private:
+  void drop() {
+    const SqliteGate gate;
+    dataset_.reset();
+  }
+
   std::filesystem::path path_;
   GdalLog log_;
   Dataset dataset_;
 };
 
-OGRLayer& make_layer(Package& package, const PointLayer& layer) {
+void make_layer(Package& package, const PointLayer& layer) {
   const Crs crs = layer.crs_wkt.empty() ? nullptr : crs_from_text(layer.crs_wkt);
   const char* const options[] = {layer.spatial_index ? "SPATIAL_INDEX=YES" : "SPATIAL_INDEX=NO", "GEOMETRY_NAME=geom",
                                  "FID=fid", nullptr};
@@ -77,26 +83,6 @@ OGRLayer& make_layer(Package& package, const PointLayer& layer) {
                                                                                      : OFTString);
     package.require(made->CreateField(&definition) == OGRERR_NONE);
   }
-  return *made;
-}
-
-void set_field(OGRFeature& feature, int index, const PointColumn& column, const PointBlock& block, std::size_t i) {
-  const auto& values = block.columns[static_cast<std::size_t>(index)];
-  if (column.type == ColumnType::number) {
-    const double value = std::get<std::span<const double>>(values)[i];
-    if (std::isfinite(value))
-      feature.SetField(index, value);
-    else
-      feature.SetFieldNull(index);
-    return;
-  }
-  const std::int32_t value = std::get<std::span<const std::int32_t>>(values)[i];
-  if (column.type == ColumnType::integer)
-    feature.SetField(index, value);
-  else if (value >= 0)
-    feature.SetField(index, column.words[static_cast<std::size_t>(value)].c_str());
-  else
-    feature.SetFieldNull(index);
 }
 
 // The table in which QGIS looks for a layer's style.
@@ -141,30 +127,15 @@ void write_style(Package& package, const PointLayer& layer) {
 
 void write_geopackage(const std::filesystem::path& path, const PointLayer& layer,
                       const std::function<std::optional<PointBlock>()>& next_block) {
-  // Nobody else sees the file before it is renamed, so nothing need be synchronised on the way; the caller does it at
-  // the end.
-  const Option no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF"), journal("OGR_SQLITE_JOURNAL", "MEMORY");
-  const Option cache("OGR_SQLITE_CACHE", "128"), date("OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z");
-  Package package(path);
-  package.require(package.dataset().StartTransaction() == OGRERR_NONE);
-  OGRLayer& points = make_layer(package, layer);
-  OGRFeature feature(points.GetLayerDefn());
-  OGRPoint point;
-  feature.SetGeometry(&point);
-  auto& position = *feature.GetGeometryRef()->toPoint();
-  while (const auto block = next_block()) {
-    for (std::size_t i = 0; i < block->x.size(); ++i) {
-      feature.SetFID(OGRNullFID);
-      position.setX(block->x[i]);
-      position.setY(block->y[i]);
-      for (std::size_t k = 0; k < layer.columns.size(); ++k)
-        set_field(feature, static_cast<int>(k), layer.columns[k], *block, i);
-      if (points.CreateFeature(&feature) != OGRERR_NONE) package.require(false);
-    }
+  // GDAL makes the empty tables, with all that the format and QGIS want around them.
+  {
+    const Option no_sync("OGR_SQLITE_SYNCHRONOUS", "OFF"), date("OGR_CURRENT_DATE", "2000-01-01T00:00:00.000Z");
+    Package package(path);
+    make_layer(package, layer);
+    if (!layer.style_qml.empty()) write_style(package, layer);
+    package.close();
   }
-  if (!layer.style_qml.empty()) write_style(package, layer);
-  package.require(package.dataset().CommitTransaction() == OGRERR_NONE);
-  package.close();
+  fill_geopackage(path, layer, next_block);
 }
 
 }  // namespace silvasim::fields

@@ -1,0 +1,37 @@
+// Walls around SQLite, which runs whatever a GeoPackage's views say.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+
+namespace silvasim::fields {
+
+// To be held while a GeoPackage is opened or closed. Read-only connections that are opened under it have a budget (see
+// below), no functions that reach outwards, and may not attach files. GDAL drops such guards for connections to come
+// whenever it closes a GeoPackage, hence one at a time.
+class SqliteGate {
+ public:
+  SqliteGate();
+  bool guarded() const;  // a connection of this thread was guarded since
+
+ private:
+  std::unique_lock<std::mutex> lock_;
+  long before_ = 0;
+};
+
+bool is_sqlite(const std::filesystem::path& path);  // by its first bytes
+
+// While it lives, SQLite statements of this thread stop with an error after so many steps of its virtual machine,
+// because a view inside a GeoPackage can loop for ever. One step takes 10 to 200 ns.
+class SqliteBudget {
+ public:
+  explicit SqliteBudget(std::uint64_t file_bytes);
+  SqliteBudget(const SqliteBudget&) = delete;
+  SqliteBudget& operator=(const SqliteBudget&) = delete;
+  ~SqliteBudget();
+
+  bool exhausted() const;
+};
+
+}  // namespace silvasim::fields
