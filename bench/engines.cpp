@@ -31,7 +31,9 @@ struct Land {
     tiling = tiles::tile_land(tile_set, 10, 10, scenario.seed);
     offsets = ecosystem::site_offsets(tile_set, tiling);
   }
-  evaluators::Ground ground() const { return {tile_set, tiling, {fields.frame.extent.west, fields.frame.extent.north}, offsets, fields}; }
+  evaluators::Ground ground() const {
+    return {tile_set, tiling, {fields.frame.extent.west, fields.frame.extent.north}, offsets, fields};
+  }
 };
 
 const Land& land() {
@@ -67,7 +69,8 @@ void compete(benchmark::State& state, bool one_block) {
   const evaluators::Network network(land().scenario, 0);
   const evaluators::Suitability suitability = evaluators::evaluate_sites(network, land().ground());
   for (auto _ : state) {
-    benchmark::DoNotOptimize(population::compete(suitability, land().ground(), land().scenario.layers[0], 1, {one_block}));
+    benchmark::DoNotOptimize(
+        population::compete(suitability, land().ground(), land().scenario.layers[0], 1, {one_block}));
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(land().offsets.back()));
 }

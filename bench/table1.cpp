@@ -2,6 +2,7 @@
 //
 // table1 [--threads N] [--runs N]: prints Markdown; each time is the median of the runs, 3 by default.
 // The paper's machine: one thread of a Xeon E5520 of 2009.
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -10,8 +11,6 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
-
-#include <fmt/format.h>
 
 #include "silvasim/base/error.h"
 #include "silvasim/base/parallel.h"
@@ -32,8 +31,8 @@ struct Scene {
 };
 
 constexpr Scene scenes[] = {
-    {"unisb-3km.xml", "UniSB 3 km", 7, 29003, 16},         {"unisb-6km.xml", "UniSB 6 km", 7, 113481, 42},
-    {"unisb-9km.xml", "UniSB 9 km", 7, 252299, 89},        {"puget-10km.xml", "Puget Sound 10 km", 8, 323565, 16},
+    {"unisb-3km.xml", "UniSB 3 km", 7, 29003, 16},           {"unisb-6km.xml", "UniSB 6 km", 7, 113481, 42},
+    {"unisb-9km.xml", "UniSB 9 km", 7, 252299, 89},          {"puget-10km.xml", "Puget Sound 10 km", 8, 323565, 16},
     {"puget-20km.xml", "Puget Sound 20 km", 8, 1262512, 60}, {"puget-40km.xml", "Puget Sound 40 km", 8, 4994147, 228}};
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -48,7 +47,9 @@ double median(std::vector<double> values) {
 double cpu_seconds() {
   struct rusage usage {};
   getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) / 1e6; };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) / 1e6;
+  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -59,7 +60,8 @@ void measure(const Scene& scene, const fs::path& folder, int runs) {
   for (int run = 0; run < runs; ++run) {
     const double cpu = cpu_seconds();
     const auto start = std::chrono::steady_clock::now();
-    const auto scenario = silvasim::config::load_scenario(folder / scene.file, std::nullopt, silvasim::evaluators::dialect());
+    const auto scenario =
+        silvasim::config::load_scenario(folder / scene.file, std::nullopt, silvasim::evaluators::dialect());
     const silvasim::Simulation simulation = silvasim::simulate(scenario);
     const auto before = std::chrono::steady_clock::now();
     silvasim::ecosystem::write(simulation.ecosystem, output);
@@ -71,9 +73,10 @@ void measure(const Scene& scene, const fs::path& folder, int runs) {
   }
   fs::remove(output);
   const auto of = [&](const char* stage) { return median(stages[stage]); };
-  fmt::print("| {} | {} | {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | **{:.2f}** | {:.2f} | {:g} |\n", scene.name,
-             scene.evaluators, scene.paper_plants, plants, of("fields"), of("tiles") + of("tiling"), of("evaluate"), of("neighbours"),
-             of("corners"), of("write"), of("total"), of("cpu"), scene.paper_s);
+  fmt::print(
+      "| {} | {} | {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | {:.3f} | **{:.2f}** | {:.2f} | {:g} |\n",
+      scene.name, scene.evaluators, scene.paper_plants, plants, of("fields"), of("tiles") + of("tiling"),
+      of("evaluate"), of("neighbours"), of("corners"), of("write"), of("total"), of("cpu"), scene.paper_s);
 }
 
 }  // namespace
@@ -87,7 +90,9 @@ int main(int argc, char** argv) {
   const silvasim::base::ThreadLimit limit(threads);
   const fs::path folder = fs::path(SILVA_SOURCE_DIR) / "bench" / "scenes";
   fmt::print("Seconds, median of {} runs, {} threads.\n\n", runs, silvasim::base::thread_count());
-  fmt::print("| scene | evaluators | plants, paper | plants | fields | tiles | evaluate | neighbours | corners | write | total | CPU | paper |\n");
+  fmt::print(
+      "| scene | evaluators | plants, paper | plants | fields | tiles | evaluate | neighbours | corners | write | "
+      "total | CPU | paper |\n");
   fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const Scene& scene : scenes) {
     try {

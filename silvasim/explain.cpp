@@ -1,9 +1,9 @@
 #include "silvasim/explain.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include <fmt/format.h>
 
 #include "silvasim/base/error.h"
 #include "silvasim/evaluators/network.h"
@@ -29,14 +29,18 @@ void for_sites_around(const GrownLayer& grown, base::Point at, double reach_m, V
     return std::clamp(static_cast<int>(std::floor(offset / side)), 0, count - 1);
   };
   const int columns = grown.tiling.columns, rows = grown.tiling.rows;
-  for (int row = tile(grown.north_west.y - at.y - reach_m, rows); row <= tile(grown.north_west.y - at.y + reach_m, rows); ++row) {
+  for (int row = tile(grown.north_west.y - at.y - reach_m, rows);
+       row <= tile(grown.north_west.y - at.y + reach_m, rows); ++row) {
     for (int column = tile(at.x - grown.north_west.x - reach_m, columns);
          column <= tile(at.x - grown.north_west.x + reach_m, columns); ++column) {
       const std::size_t position = grown.tiling.position(column, row);
       const auto& sites = grown.tile_set.tiles[grown.tiling.tiles[position]].sites;
       const base::Point origin{grown.north_west.x + column * side, grown.north_west.y - (row + 1) * side};
       for (std::size_t k = 0; k < sites.size(); ++k) {
-        visit(SitePlace{column, row, k, grown.offsets[position] + k,
+        visit(SitePlace{column,
+                        row,
+                        k,
+                        grown.offsets[position] + k,
                         {origin.x + static_cast<double>(sites[k].x_m), origin.y + static_cast<double>(sites[k].y_m)},
                         sites[k].radius_m});
       }
@@ -93,7 +97,8 @@ void explain_corner(const GrownLayer& grown, const SitePlace& here, SiteExplanat
 std::string strongest_reason(const SiteExplanation& explanation, std::size_t species) {
   const evaluators::TraceRow* worst = nullptr;
   for (const evaluators::TraceRow& row : explanation.steps) {
-    if (!row.result[species] || row.tag == "NormalizeEvaluator" || row.tag == "length" || row.tag == "product") continue;
+    if (!row.result[species] || row.tag == "NormalizeEvaluator" || row.tag == "length" || row.tag == "product")
+      continue;
     if (!row.value && !row.field.empty()) return "field \"" + row.field + "\" has no data there";
     if (!worst || *row.result[species] < *worst->result[species]) worst = &row;
   }
@@ -115,20 +120,23 @@ std::string sentence(const SiteExplanation& e) {
   }
   const std::string name = e.species[e.candidate];
   const std::string neighbours =
-      e.neighbours.empty() ? ""
-                           : fmt::format(" and the neighbours changed it from {:.3g} to {:.3g}", e.abiotic_probability, e.probability);
+      e.neighbours.empty()
+          ? ""
+          : fmt::format(" and the neighbours changed it from {:.3g} to {:.3g}", e.abiotic_probability, e.probability);
   if (e.plant != ecosystem::no_plant) {
-    return fmt::format("{} stands here, because of all plants it suits the site best with a probability of {:.3g}{}.", name,
-                       e.probability, neighbours);
+    return fmt::format("{} stands here, because of all plants it suits the site best with a probability of {:.3g}{}.",
+                       name, e.probability, neighbours);
   }
   if (!e.stood_before_corners) {
-    return fmt::format("Nothing stands here: {} would suit the site best, but its probability is only {:.3g}{}, and the draw "
-                       "went against it; {}.",
-                       name, e.probability, neighbours, strongest_reason(e, e.candidate));
+    return fmt::format(
+        "Nothing stands here: {} would suit the site best, but its probability is only {:.3g}{}, and the draw "
+        "went against it; {}.",
+        name, e.probability, neighbours, strongest_reason(e, e.candidate));
   }
-  return fmt::format("Nothing stands here: {} would, but its crown overlaps {} across a tile corner, which stayed.", name,
-                     e.gave_way_to ? e.species[e.gave_way_to->species] + fmt::format(", {:.1f} m away", e.gave_way_to->distance_m)
-                                   : "another plant");
+  return fmt::format(
+      "Nothing stands here: {} would, but its crown overlaps {} across a tile corner, which stayed.", name,
+      e.gave_way_to ? e.species[e.gave_way_to->species] + fmt::format(", {:.1f} m away", e.gave_way_to->distance_m)
+                    : "another plant");
 }
 
 SiteExplanation explain_layer(const config::Scenario& scenario, std::size_t index, const fields::FieldSet& fields,
@@ -185,9 +193,10 @@ std::vector<SiteExplanation> explain(const config::Scenario& scenario, base::Poi
   }
   const base::Box extent = fields.frame.extent;
   if (!extent.contains(at)) {
-    throw base::Error(fmt::format("the point {}, {} lies outside the scene, which reaches from {:.1f} to {:.1f} (x) and {:.1f} to "
-                                  "{:.1f} (y)",
-                                  at.x, at.y, extent.west, extent.east, extent.south, extent.north));
+    throw base::Error(
+        fmt::format("the point {}, {} lies outside the scene, which reaches from {:.1f} to {:.1f} (x) and {:.1f} to "
+                    "{:.1f} (y)",
+                    at.x, at.y, extent.west, extent.east, extent.south, extent.north));
   }
   std::vector<SiteExplanation> explanations;
   std::vector<std::pair<std::string, double>> seconds;

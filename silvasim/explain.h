@@ -21,16 +21,16 @@ struct NeighbourEffect {
 struct SiteExplanation {
   std::string layer;
   std::vector<std::string> species;
-  base::Point site;                // scene point
+  base::Point site;  // scene point
   std::optional<fields::GeographicPoint> geographic;
-  double distance_m = 0;           // from the point asked for
-  int column = 0, row = 0;         // tile position
-  int tile = 0;                    // index in the tile set
+  double distance_m = 0;    // from the point asked for
+  int column = 0, row = 0;  // tile position
+  int tile = 0;             // index in the tile set
   std::uint32_t site_id = 0;
   float radius_m = 0;
-  bool outside = false;            // the site lies outside the scene
+  bool outside = false;  // the site lies outside the scene
   std::vector<evaluators::TraceRow> steps;
-  std::vector<float> abiotic;      // probability a species after the pipeline
+  std::vector<float> abiotic;  // probability a species after the pipeline
   ecosystem::PlantId candidate = ecosystem::no_plant;
   float abiotic_probability = 0, probability = 0;  // of the candidate, before and after the neighbours
   std::vector<NeighbourEffect> neighbours;

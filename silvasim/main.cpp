@@ -1,12 +1,12 @@
 // The command line of silvasim. The only place that prints an error and ends the program.
 //
 // Exit codes: 0 done, 1 failed while running, 2 wrong command line or configuration, 130 interrupted.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <new>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
 #include "silvasim/base/error.h"
 #include "silvasim/base/progress.h"
@@ -21,14 +21,16 @@ using namespace silvasim::commands;
 void add_common(CLI::App& command, Common& common, bool json = true) {
   if (json) command.add_flag("--json", common.json, "Print one JSON object instead of text");
   command.add_flag("-q,--quiet", common.quiet, "Print nothing but errors (and the JSON, if asked for)");
-  command.add_option("--threads", common.threads, "Threads to use; the result does not depend on it (default: one a core)")
+  command
+      .add_option("--threads", common.threads, "Threads to use; the result does not depend on it (default: one a core)")
       ->check(CLI::Range(1, 1024));
 }
 
 void add_scenario(CLI::App& command, ScenarioOptions& scenario) {
   command.add_option("ecosystem", scenario.ecosystem, "The ecosystem file (XML)")->required();
   command.add_option("--plants", scenario.plants, "The plants file (XML); default: the one the ecosystem file names");
-  command.add_option("--seed", scenario.seed, "Overrides the ecosystem file's seed")->check(CLI::Range(0.0, 9007199254740991.0));
+  command.add_option("--seed", scenario.seed, "Overrides the ecosystem file's seed")
+      ->check(CLI::Range(0.0, 9007199254740991.0));
 }
 
 struct Options {
@@ -51,7 +53,8 @@ void add_run(CLI::App& app, Options& o) {
   command->add_option("--csv", o.run.csv, "Also write every plant as CSV");
   command->add_option("--gpkg", o.run.gpkg, "Also write every plant as GeoPackage, styled for QGIS");
   command->add_option("--geojson", o.run.geojson, "Also write every plant as GeoJSON");
-  command->add_flag("--probabilities", o.run.probabilities, "Keep each plant's growth probability in the ecosystem file");
+  command->add_flag("--probabilities", o.run.probabilities,
+                    "Keep each plant's growth probability in the ecosystem file");
   add_common(*command, o.run.common);
   command->callback([&o] { run(o.run); });
 }
@@ -89,7 +92,9 @@ void add_preview(CLI::App& app, Options& o) {
   command->add_option("-o,--output", o.preview.output, "The map, .png or .svg")->required();
   command->add_option("--species", o.preview.species, "Only this species (may be repeated)");
   command->add_option("--layer", o.preview.layer, "What to draw")->check(CLI::IsMember({"species", "probability"}));
-  command->add_option("--bbox", o.preview.bbox, "WEST,SOUTH,EAST,NORTH in the scene's metres")->delimiter(',')->expected(4);
+  command->add_option("--bbox", o.preview.bbox, "WEST,SOUTH,EAST,NORTH in the scene's metres")
+      ->delimiter(',')
+      ->expected(4);
   command->add_option("--width", o.preview.width_px, "Width of the picture in pixels")->check(CLI::Range(16, 20000));
   command->add_option("--title", o.preview.title, "Title of the map");
   command->add_flag("--bare", o.preview.bare, "The map alone, without title, legend and margins");

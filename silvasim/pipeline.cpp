@@ -16,7 +16,8 @@ namespace {
 // Adds the time from its making to its end to a stage.
 class Stopwatch {
  public:
-  Stopwatch(std::vector<std::pair<std::string, double>>& seconds, const char* stage) : seconds_(seconds), stage_(stage) {}
+  Stopwatch(std::vector<std::pair<std::string, double>>& seconds, const char* stage)
+      : seconds_(seconds), stage_(stage) {}
   ~Stopwatch() {
     const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     for (auto& [stage, sum] : seconds_) {
@@ -125,7 +126,8 @@ GrownLayer grow_layer(const config::Scenario& scenario, std::size_t index, const
   {
     Stopwatch watch(seconds, "neighbours");
     if (settings.neighbourhoods.enabled) {
-      population::Competition competition = population::compete(grown.suitability, ground, settings, seed, {}, progress);
+      population::Competition competition =
+          population::compete(grown.suitability, ground, settings, seed, {}, progress);
       grown.before_corners = std::move(competition.population);
       grown.report.neighbourhoods = std::move(competition.report);
     } else {

@@ -26,7 +26,7 @@ struct SimulationOptions {
 // What happened in one layer.
 struct LayerReport {
   std::string name;
-  std::uint64_t sites = 0;       // on all tiles, inside the scene or not
+  std::uint64_t sites = 0;  // on all tiles, inside the scene or not
   std::uint64_t plants = 0;
   std::vector<std::uint64_t> plants_by_species;
   int tile_columns = 0, tile_rows = 0, tile_kinds = 0;

@@ -1,7 +1,6 @@
 #include "silvasim/provenance.h"
 
 #include <filesystem>
-
 #include <nlohmann/json.hpp>
 
 namespace silvasim {
@@ -22,10 +21,12 @@ std::string provenance(const config::Scenario& scenario, const fields::FieldSet&
   json["seed"] = scenario.seed;
   json["config_sha256"] = scenario.sha256;
   // The folder of the first file is the root: where a run was started from must not change its bytes.
-  const std::filesystem::path root =
-      scenario.files.empty() ? std::filesystem::path() : std::filesystem::path(scenario.files.front().path).parent_path();
+  const std::filesystem::path root = scenario.files.empty()
+                                         ? std::filesystem::path()
+                                         : std::filesystem::path(scenario.files.front().path).parent_path();
   for (const config::SourceFile& file : scenario.files) {
-    json["config"].push_back({{"path", without_folder_of_machine(std::filesystem::path(file.path).lexically_relative(root.empty() ? "." : root))},
+    json["config"].push_back({{"path", without_folder_of_machine(std::filesystem::path(file.path).lexically_relative(
+                                           root.empty() ? "." : root))},
                               {"sha256", file.sha256},
                               {"text", file.text}});
   }

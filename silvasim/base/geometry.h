@@ -32,8 +32,6 @@ inline Box intersection(const Box& a, const Box& b) {
   return {std::max(a.west, b.west), std::max(a.south, b.south), std::min(a.east, b.east), std::min(a.north, b.north)};
 }
 
-inline Box grown(const Box& box, double by) {
-  return {box.west - by, box.south - by, box.east + by, box.north + by};
-}
+inline Box grown(const Box& box, double by) { return {box.west - by, box.south - by, box.east + by, box.north + by}; }
 
 }  // namespace silvasim::base

@@ -1,10 +1,10 @@
 #include "silvasim/base/hash.h"
 
+#include <openssl/evp.h>
+
 #include <array>
 #include <fstream>
 #include <memory>
-
-#include <openssl/evp.h>
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 

@@ -1,18 +1,18 @@
 #include "silvasim/base/parallel.h"
 
-#include <atomic>
-
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <atomic>
+
 namespace silvasim::base {
 
 ThreadLimit::ThreadLimit(int threads)
-    : control_(new tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                       static_cast<std::size_t>(threads > 0 ? threads
-                                                                            : tbb::info::default_concurrency()))) {}
+    : control_(new tbb::global_control(
+          tbb::global_control::max_allowed_parallelism,
+          static_cast<std::size_t>(threads > 0 ? threads : tbb::info::default_concurrency()))) {}
 
 ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(control_); }
 

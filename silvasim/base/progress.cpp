@@ -1,7 +1,8 @@
 #include "silvasim/base/progress.h"
 
-#include <csignal>
 #include <unistd.h>
+
+#include <csignal>
 
 #include "silvasim/base/error.h"
 #include "silvasim/base/file.h"

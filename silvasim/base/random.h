@@ -23,8 +23,8 @@ enum class Purpose : std::uint32_t {
 class Stream {
  public:
   Stream(std::uint64_t seed, Purpose purpose, std::uint32_t a = 0, std::uint32_t b = 0, std::uint32_t c = 0)
-      : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32) ^
-                                                   (static_cast<std::uint32_t>(purpose) * 0x9E3779B9u)},
+      : key_{static_cast<std::uint32_t>(seed),
+             static_cast<std::uint32_t>(seed >> 32) ^ (static_cast<std::uint32_t>(purpose) * 0x9E3779B9u)},
         counter_{a, b, c, 0} {}
 
   std::uint32_t next_u32() {

@@ -16,19 +16,19 @@ using Path = std::filesystem::path;
 struct Common {
   bool json = false;
   bool quiet = false;
-  int threads = 0;                     // 0: one a core
+  int threads = 0;  // 0: one a core
 };
 
 struct ScenarioOptions {
   Path ecosystem;
   std::optional<Path> plants;
-  std::optional<std::uint64_t> seed;   // overrides the file's
+  std::optional<std::uint64_t> seed;  // overrides the file's
 };
 
 struct RunOptions {
   Common common;
   ScenarioOptions scenario;
-  std::optional<Path> output;          // default: the ecosystem file's name with .silva, in the current folder
+  std::optional<Path> output;  // default: the ecosystem file's name with .silva, in the current folder
   std::optional<Path> svg, png, csv, gpkg, geojson;
   bool probabilities = false;
 };
@@ -42,7 +42,7 @@ struct ExplainOptions {
   Common common;
   ScenarioOptions scenario;
   double x = 0, y = 0;
-  bool degrees = false;                // x, y are longitude and latitude
+  bool degrees = false;  // x, y are longitude and latitude
 };
 
 struct InfoOptions {
@@ -53,9 +53,9 @@ struct InfoOptions {
 struct PreviewOptions {
   Common common;
   Path ecosystem, output;
-  std::string layer = "species";       // species | probability
+  std::string layer = "species";  // species | probability
   std::vector<std::string> species;
-  std::vector<double> bbox;            // west, south, east, north
+  std::vector<double> bbox;  // west, south, east, north
   int width_px = 1600;
   bool bare = false;
   std::string title;
@@ -64,11 +64,11 @@ struct PreviewOptions {
 struct ExportOptions {
   Common common;
   Path ecosystem, output;
-  std::string format;                  // "" = by the output's extension
+  std::string format;  // "" = by the output's extension
 };
 
 struct HelpOptions {
-  std::string element;                 // "" = all of them
+  std::string element;  // "" = all of them
   bool manual = false;
 };
 

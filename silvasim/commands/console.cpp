@@ -1,14 +1,14 @@
 #include "silvasim/commands/console.h"
 
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <mutex>
-
-#include <fmt/format.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include "silvasim/config/load.h"
 #include "silvasim/evaluators/evaluator.h"

@@ -20,8 +20,9 @@ void help(const HelpOptions& options) {
   } else {
     const std::string text = config::help_element(dialect, options.element);
     if (text.empty()) {
-      throw base::ConfigError({"command line", 0, 0}, "there is no element <" + options.element + ">" +
-                                                          base::did_you_mean(options.element, config::element_names(dialect)));
+      throw base::ConfigError({"command line", 0, 0},
+                              "there is no element <" + options.element + ">" +
+                                  base::did_you_mean(options.element, config::element_names(dialect)));
     }
     fmt::print("{}", text);
   }

@@ -1,5 +1,6 @@
 // silvasim info: what an ecosystem file holds.
 #include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "silvasim/commands/commands.h"
@@ -20,9 +21,11 @@ Json as_json(const ecosystem::Summary& summary, const Path& path, const fields::
   json["file"] = path.filename().string();
   json["bytes"] = summary.file_bytes;
   json["format"] = fmt::format("{}.{}", summary.format_major, summary.format_minor);
-  json["extent"] = {{"west", e.extent.west}, {"south", e.extent.south}, {"east", e.extent.east}, {"north", e.extent.north}};
+  json["extent"] = {
+      {"west", e.extent.west}, {"south", e.extent.south}, {"east", e.extent.east}, {"north", e.extent.north}};
   json["crs_wkt"] = e.crs_wkt;
-  if (frame.centre) json["centre"] = {{"latitude", frame.centre->latitude_deg}, {"longitude", frame.centre->longitude_deg}};
+  if (frame.centre)
+    json["centre"] = {{"latitude", frame.centre->latitude_deg}, {"longitude", frame.centre->longitude_deg}};
   json["terrain"] = {{"columns", e.terrain.columns}, {"rows", e.terrain.rows}};
   std::uint64_t sites = 0, plants = 0;
   json["layers"] = Json::array();
@@ -31,16 +34,22 @@ Json as_json(const ecosystem::Summary& summary, const Path& path, const fields::
     const ecosystem::Summary::Plants& held = summary.plants[k];
     Json species = Json::array();
     for (std::size_t s = 0; s < held.by_species.size(); ++s) {
-      species.push_back({{"name", layer.species[s].name}, {"common_name", layer.species[s].common_name},
-                         {"colour", fmt::format("#{:06x}", layer.species[s].colour)}, {"model", layer.species[s].model}, {"plants", held.by_species[s]}});
+      species.push_back({{"name", layer.species[s].name},
+                         {"common_name", layer.species[s].common_name},
+                         {"colour", fmt::format("#{:06x}", layer.species[s].colour)},
+                         {"model", layer.species[s].model},
+                         {"plants", held.by_species[s]}});
     }
     sites += held.sites;
     plants += held.standing;
     json["layers"].push_back({{"name", layer.name},
                               {"sites", held.sites},
                               {"plants", held.standing},
-                              {"tiles", {{"columns", layer.tiling.columns}, {"rows", layer.tiling.rows},
-                                         {"kinds", layer.tile_set.tiles.size()}, {"side_m", layer.tile_set.side_m}}},
+                              {"tiles",
+                               {{"columns", layer.tiling.columns},
+                                {"rows", layer.tiling.rows},
+                                {"kinds", layer.tile_set.tiles.size()},
+                                {"side_m", layer.tile_set.side_m}}},
                               {"most_radius_m", layer.tile_set.most_radius_m},
                               {"probabilities", held.probabilities},
                               {"species", species}});
@@ -54,31 +63,36 @@ Json as_json(const ecosystem::Summary& summary, const Path& path, const fields::
 void print(const ecosystem::Summary& summary, const Path& path, const fields::FrameReport& frame) {
   const ecosystem::Ecosystem& e = summary.ecosystem;
   fmt::print("{}  ({}, {})\n", e.name, path.string(), bytes_text(summary.file_bytes));
-  fmt::print("extent   {:.2f} to {:.2f} east, {:.2f} to {:.2f} north; {:.2f} x {:.2f} km\n", e.extent.west, e.extent.east, e.extent.south,
-             e.extent.north, e.extent.width() / 1000, e.extent.height() / 1000);
+  fmt::print("extent   {:.2f} to {:.2f} east, {:.2f} to {:.2f} north; {:.2f} x {:.2f} km\n", e.extent.west,
+             e.extent.east, e.extent.south, e.extent.north, e.extent.width() / 1000, e.extent.height() / 1000);
   if (frame.centre) {
-    fmt::print("place    latitude {:.5f}, longitude {:.5f}, MGRS {}\n", frame.centre->latitude_deg, frame.centre->longitude_deg, frame.mgrs);
-    fmt::print("frame    scale {:.6f} to {:.6f}, convergence {:.3f} degrees, earth drops {:.1f} m\n", frame.least_scale, frame.most_scale,
-               frame.convergence_deg, frame.curvature_drop_m);
+    fmt::print("place    latitude {:.5f}, longitude {:.5f}, MGRS {}\n", frame.centre->latitude_deg,
+               frame.centre->longitude_deg, frame.mgrs);
+    fmt::print("frame    scale {:.6f} to {:.6f}, convergence {:.3f} degrees, earth drops {:.1f} m\n", frame.least_scale,
+               frame.most_scale, frame.convergence_deg, frame.curvature_drop_m);
   } else {
     fmt::print("place    local metres, without a place on the earth\n");
   }
-  if (e.terrain.columns > 0) fmt::print("terrain  {} x {} cells of {:.2f} m\n", e.terrain.columns, e.terrain.rows, e.terrain.cell_width_m);
+  if (e.terrain.columns > 0)
+    fmt::print("terrain  {} x {} cells of {:.2f} m\n", e.terrain.columns, e.terrain.rows, e.terrain.cell_width_m);
   for (std::size_t k = 0; k < e.layers.size(); ++k) {
     const ecosystem::Layer& layer = e.layers[k];
     const ecosystem::Summary::Plants& held = summary.plants[k];
-    fmt::print("layer    {}: {} plants on {} sites; {} x {} tiles of {:g} m, {} kinds{}\n", layer.name, grouped(held.standing),
-               grouped(held.sites), layer.tiling.columns, layer.tiling.rows, layer.tile_set.side_m, layer.tile_set.tiles.size(),
-               held.probabilities ? ", with probabilities" : "");
+    fmt::print("layer    {}: {} plants on {} sites; {} x {} tiles of {:g} m, {} kinds{}\n", layer.name,
+               grouped(held.standing), grouped(held.sites), layer.tiling.columns, layer.tiling.rows,
+               layer.tile_set.side_m, layer.tile_set.tiles.size(), held.probabilities ? ", with probabilities" : "");
     for (std::size_t s = 0; s < held.by_species.size(); ++s) {
-      fmt::print("  {:<28} {:<28} {:>14} {:5.1f} %\n", layer.species[s].name, layer.species[s].common_name, grouped(held.by_species[s]),
-                 held.standing > 0 ? 100.0 * static_cast<double>(held.by_species[s]) / static_cast<double>(held.standing) : 0.0);
+      fmt::print("  {:<28} {:<28} {:>14} {:5.1f} %\n", layer.species[s].name, layer.species[s].common_name,
+                 grouped(held.by_species[s]),
+                 held.standing > 0
+                     ? 100.0 * static_cast<double>(held.by_species[s]) / static_cast<double>(held.standing)
+                     : 0.0);
     }
   }
   const Json provenance = Json::parse(e.provenance_json, nullptr, false);
   if (provenance.is_object()) {
-    fmt::print("made by  silvasim {}, seed {}, configuration {}\n", provenance.value("version", "?"), provenance.value("seed", Json()).dump(),
-               provenance.value("config_sha256", "?").substr(0, 16));
+    fmt::print("made by  silvasim {}, seed {}, configuration {}\n", provenance.value("version", "?"),
+               provenance.value("seed", Json()).dump(), provenance.value("config_sha256", "?").substr(0, 16));
   }
 }
 

@@ -1,4 +1,6 @@
 // silvasim preview and silvasim export: an ecosystem file for people and for other programs.
+#include "silvasim/export/picture.h"
+
 #include <fmt/format.h>
 
 #include "silvasim/base/error.h"
@@ -7,7 +9,6 @@
 #include "silvasim/commands/console.h"
 #include "silvasim/ecosystem/file.h"
 #include "silvasim/export/formats.h"
-#include "silvasim/export/picture.h"
 
 namespace silvasim::commands {
 
@@ -19,12 +20,14 @@ void preview(const PreviewOptions& options) {
   picture.subject = options.layer == "probability" ? exports::Subject::probability : exports::Subject::species;
   picture.decorated = !options.bare;
   picture.title = options.title;
-  if (!options.bbox.empty()) picture.bbox = base::Box{options.bbox[0], options.bbox[1], options.bbox[2], options.bbox[3]};
+  if (!options.bbox.empty())
+    picture.bbox = base::Box{options.bbox[0], options.bbox[1], options.bbox[2], options.bbox[3]};
   const base::Progress progress = console_progress(options.common);
   const ecosystem::Ecosystem grown = ecosystem::read(options.ecosystem, progress);
   exports::write_preview(grown, picture, options.output);
   end_progress(options.common);
-  if (!options.common.quiet) fmt::print("wrote    {} ({})\n", options.output.string(), bytes_text(std::filesystem::file_size(options.output)));
+  if (!options.common.quiet)
+    fmt::print("wrote    {} ({})\n", options.output.string(), bytes_text(std::filesystem::file_size(options.output)));
 }
 
 void export_plants(const ExportOptions& options) {
@@ -33,7 +36,8 @@ void export_plants(const ExportOptions& options) {
   const ecosystem::Ecosystem grown = ecosystem::read(options.ecosystem, progress);
   exports::export_to(grown, options.format, options.output, progress);
   end_progress(options.common);
-  if (!options.common.quiet) fmt::print("wrote    {} ({})\n", options.output.string(), bytes_text(std::filesystem::file_size(options.output)));
+  if (!options.common.quiet)
+    fmt::print("wrote    {} ({})\n", options.output.string(), bytes_text(std::filesystem::file_size(options.output)));
 }
 
 }  // namespace silvasim::commands

@@ -1,8 +1,8 @@
 // silvasim run: the main job.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
-
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "silvasim/base/error.h"
@@ -50,8 +50,11 @@ Json layer_json(const LayerReport& layer, const ecosystem::Layer& grown) {
           {"sites", layer.sites},
           {"plants", layer.plants},
           {"plants_by_species", by_species},
-          {"tiles", {{"columns", layer.tile_columns}, {"rows", layer.tile_rows}, {"kinds", layer.tile_kinds},
-                     {"side_m", grown.tile_set.side_m}}},
+          {"tiles",
+           {{"columns", layer.tile_columns},
+            {"rows", layer.tile_rows},
+            {"kinds", layer.tile_kinds},
+            {"side_m", grown.tile_set.side_m}}},
           {"neighbourhood_passes", layer.neighbourhoods.passes},
           {"neighbourhood_changed", layer.neighbourhoods.changed},
           {"neighbourhood_cell_m", layer.neighbourhoods.cell_m},
@@ -92,7 +95,8 @@ Json report_json(const config::Scenario& scenario, const Simulation& simulation,
   json["extent"] = {{"west", extent.west}, {"south", extent.south}, {"east", extent.east}, {"north", extent.north}};
   const fields::FrameReport& frame = simulation.report.frame;
   if (frame.centre) {
-    json["centre"] = {{"latitude", frame.centre->latitude_deg}, {"longitude", frame.centre->longitude_deg}, {"mgrs", frame.mgrs}};
+    json["centre"] = {
+        {"latitude", frame.centre->latitude_deg}, {"longitude", frame.centre->longitude_deg}, {"mgrs", frame.mgrs}};
     json["frame"] = {{"convergence_deg", frame.convergence_deg},
                      {"least_scale", frame.least_scale},
                      {"most_scale", frame.most_scale},
@@ -127,7 +131,9 @@ void print_summary(const Simulation& simulation, const std::vector<Path>& output
   const ecosystem::Ecosystem& e = simulation.ecosystem;
   const fields::FrameReport& frame = simulation.report.frame;
   fmt::print("place    {}, {:.2f} x {:.2f} km{}\n", e.name, e.extent.width() / 1000, e.extent.height() / 1000,
-             frame.centre ? fmt::format(", about {:.4f}, {:.4f}", frame.centre->latitude_deg, frame.centre->longitude_deg) : "");
+             frame.centre
+                 ? fmt::format(", about {:.4f}, {:.4f}", frame.centre->latitude_deg, frame.centre->longitude_deg)
+                 : "");
   fmt::print("plants   {} on {} sites, {} species\n", grouped(plants), grouped(sites), species.size());
   std::string most;
   for (std::size_t i = 0; i < species.size() && i < 4; ++i) {

@@ -1,5 +1,6 @@
 // silvasim validate: everything that can be said about a configuration without growing it.
 #include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "silvasim/base/error.h"
@@ -15,7 +16,10 @@ namespace {
 nlohmann::ordered_json as_json(const std::vector<base::Diagnostic>& errors) {
   auto list = nlohmann::ordered_json::array();
   for (const base::Diagnostic& error : errors) {
-    list.push_back({{"file", error.place.file}, {"line", error.place.line}, {"column", error.place.column}, {"message", error.message}});
+    list.push_back({{"file", error.place.file},
+                    {"line", error.place.line},
+                    {"column", error.place.column},
+                    {"message", error.message}});
   }
   return list;
 }
@@ -43,8 +47,9 @@ void validate(const ValidateOptions& options) {
   if (options.common.json || options.common.quiet) return;
   std::size_t species = 0;
   for (const config::LayerSettings& layer : scenario.layers) species += layer.species.size();
-  fmt::print("{}: valid; {} layer{}, {} species, {} data field{}\n", options.scenario.ecosystem.string(), scenario.layers.size(),
-             scenario.layers.size() == 1 ? "" : "s", species, scenario.fields.size(), scenario.fields.size() == 1 ? "" : "s");
+  fmt::print("{}: valid; {} layer{}, {} species, {} data field{}\n", options.scenario.ecosystem.string(),
+             scenario.layers.size(), scenario.layers.size() == 1 ? "" : "s", species, scenario.fields.size(),
+             scenario.fields.size() == 1 ? "" : "s");
 }
 
 }  // namespace silvasim::commands

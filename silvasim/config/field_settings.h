@@ -34,15 +34,15 @@ enum class VectorMeasure {
 };
 
 enum class TerrainMeasure {
-  slope_deg,      // Horn, degrees
-  aspect_deg,     // Horn, degrees clockwise from grid north, the direction the slope faces; flat ground has no data
-  northness,      // cos(aspect) * sin(slope): 1 steep and facing north, -1 steep and facing south, 0 flat
-  eastness,       // sin(aspect) * sin(slope)
-  curvature,      // Laplacian of the terrain, 1/m, Zevenbergen and Thorne 1987; positive in hollows
-  tpi,            // topographic position index, metres above the mean of the eight neighbours, or of a disc of `radius_m`
-  tri,            // terrain ruggedness index, metres (Riley et al. 1999), as gdaldem computes it by default
-  wetness,        // topographic wetness index ln(a / tan(slope)), Beven and Kirkby 1979
-  hillshade,      // 0..1, for pictures
+  slope_deg,   // Horn, degrees
+  aspect_deg,  // Horn, degrees clockwise from grid north, the direction the slope faces; flat ground has no data
+  northness,   // cos(aspect) * sin(slope): 1 steep and facing north, -1 steep and facing south, 0 flat
+  eastness,    // sin(aspect) * sin(slope)
+  curvature,   // Laplacian of the terrain, 1/m, Zevenbergen and Thorne 1987; positive in hollows
+  tpi,         // topographic position index, metres above the mean of the eight neighbours, or of a disc of `radius_m`
+  tri,         // terrain ruggedness index, metres (Riley et al. 1999), as gdaldem computes it by default
+  wetness,     // topographic wetness index ln(a / tan(slope)), Beven and Kirkby 1979
+  hillshade,   // 0..1, for pictures
 };
 
 struct FieldSettings {
@@ -50,41 +50,42 @@ struct FieldSettings {
   base::Place place;
   Source source = Source::raster;
   FieldKind kind = FieldKind::value;
-  bool terrain = false;                 // this field is the ground's height in metres
+  bool terrain = false;  // this field is the ground's height in metres
   NoDataPolicy no_data = NoDataPolicy::exclude;
   double no_data_fill = 0;
   std::optional<double> no_data_value;  // a raw value that means no data, besides what the file declares
 
   // raster and vector
-  std::filesystem::path path;           // resolved against the XML file's folder
-  std::string crs;                      // overrides the file's, or says it where the file is silent; "" = the file's
+  std::filesystem::path path;  // resolved against the XML file's folder
+  std::string crs;             // overrides the file's, or says it where the file is silent; "" = the file's
 
   // raster
   int band = 1;
-  bool scaled = false;                  // the user gave scale or offset; an image without georeference then keeps its raw values
-  double scale = 1, offset = 0;         // value = raw * scale + offset, after the file's own scale and offset
+  bool scaled = false;  // the user gave scale or offset; an image without georeference then keeps its raw values
+  double scale = 1, offset = 0;  // value = raw * scale + offset, after the file's own scale and offset
 
   // vector
-  std::string layer;                    // "" = the first
-  std::string where;                    // OGR attribute filter
+  std::string layer;  // "" = the first
+  std::string where;  // OGR attribute filter
   VectorMeasure measure = VectorMeasure::inside;
   std::string attribute;
-  double resolution_m = 0;              // cell size of the burnt raster; 0: a 2000th of the scene's longer side, 1 m at least
+  double resolution_m = 0;  // cell size of the burnt raster; 0: a 2000th of the scene's longer side, 1 m at least
 
   // derived
   TerrainMeasure derivation = TerrainMeasure::slope_deg;
-  std::string of;                       // name of the raster field it is derived from; "" = the terrain
-  double radius_m = 0;                  // tpi: radius of the disc; 0: the eight neighbours
+  std::string of;       // name of the raster field it is derived from; "" = the terrain
+  double radius_m = 0;  // tpi: radius of the disc; 0: the eight neighbours
 };
 
 // The scene's frame, as far as the user says it.
 struct SceneSettings {
   base::Place place;
-  std::string crs;                      // "EPSG:32610", a WKT, "local"; "" = the terrain's, or its UTM zone if in degrees
-  std::optional<base::Box> extent;      // in the scene's CRS; none: the terrain's (or the first georeferenced raster's)
+  std::string crs;                  // "EPSG:32610", a WKT, "local"; "" = the terrain's, or its UTM zone if in degrees
+  std::optional<base::Box> extent;  // in the scene's CRS; none: the terrain's (or the first georeferenced raster's)
   std::optional<base::Box> extent_geographic;  // in degrees of WGS 84 (west = longitude); at most one of the extents
-  std::optional<double> width_m, height_m;     // with neither extent: a local box from (0,0), or the middle of the terrain's
-  bool offline = true;                  // never fetch anything: no grids, no URLs
+  std::optional<double> width_m,
+      height_m;         // with neither extent: a local box from (0,0), or the middle of the terrain's
+  bool offline = true;  // never fetch anything: no grids, no URLs
 };
 
 }  // namespace silvasim::config

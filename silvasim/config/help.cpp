@@ -23,8 +23,9 @@ std::string attribute_line(const AttributeRule& rule) {
 }
 
 std::string inside(const ElementRule& rule, const Dialect& dialect) {
-  if (rule.text != ValueType::none) return "Text: " + describe(rule.text, {}, -std::numeric_limits<double>::infinity(),
-                                                               std::numeric_limits<double>::infinity());
+  if (rule.text != ValueType::none)
+    return "Text: " +
+           describe(rule.text, {}, -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity());
   std::string text;
   for (const ChildRule& child : rule.children) {
     text += (text.empty() ? "Inside: <" : ", <") + dialect.rule(child.type).tag + ">";
@@ -38,7 +39,8 @@ std::vector<std::pair<std::string, std::vector<const ElementRule*>>> chapters(co
   const auto is_one_of = [](const std::vector<std::string>& types, const ElementRule& rule) {
     return std::find(types.begin(), types.end(), rule.type) != types.end();
   };
-  const std::vector<std::string> flora = {"Plants", "Plant", "Model", "Scale", "Neighbourhood", "PlantInfluence", "Property"};
+  const std::vector<std::string> flora = {"Plants",        "Plant",          "Model",   "Scale",
+                                          "Neighbourhood", "PlantInfluence", "Property"};
   const std::vector<std::string> parts = {"ClassValue", "TablePoint"};
   std::vector<std::pair<std::string, std::vector<const ElementRule*>>> all = {
       {"The ecosystem file", {}}, {"The plants file", {}}, {"Properties", {}}, {"Evaluators", {}}};
@@ -46,10 +48,10 @@ std::vector<std::pair<std::string, std::vector<const ElementRule*>>> chapters(co
   all[1].second.push_back(&dialect.rule("Plants"));
   for (const ElementRule& rule : dialect.rules) {
     if (rule.type == "Ecosystem" || rule.type == "Plants") continue;
-    const std::size_t chapter = is_one_of(dialect.evaluators, rule)                                  ? 3
+    const std::size_t chapter = is_one_of(dialect.evaluators, rule)                             ? 3
                                 : is_one_of(dialect.properties, rule) || is_one_of(parts, rule) ? 2
-                                : is_one_of(flora, rule)                                             ? 1
-                                                                                                     : 0;
+                                : is_one_of(flora, rule)                                        ? 1
+                                                                                                : 0;
     all[chapter].second.push_back(&rule);
   }
   return all;
@@ -75,7 +77,8 @@ std::string help_element(const Dialect& dialect, const std::string& name) {
   for (const ElementRule& rule : dialect.rules) {
     if (rule.tag != name && rule.type != name) continue;
     text += (text.empty() ? "" : "\n") + ("<" + rule.tag + ">  " + rule.help + "\n");
-    for (const AttributeRule& attribute : rule.attributes) text += "  " + attribute.name + ": " + attribute_line(attribute) + "\n";
+    for (const AttributeRule& attribute : rule.attributes)
+      text += "  " + attribute.name + ": " + attribute_line(attribute) + "\n";
     const std::string content = inside(rule, dialect);
     if (!content.empty()) text += "  " + content + "\n";
     if (!rule.example.empty()) text += "  Example: " + rule.example + "\n";
@@ -85,12 +88,14 @@ std::string help_element(const Dialect& dialect, const std::string& name) {
 
 std::string help_manual(const Dialect& dialect) {
   std::string text =
-      "# The dialect\n\nEvery element of the ecosystem file and the plants file. This page is written by `silvasim help "
+      "# The dialect\n\nEvery element of the ecosystem file and the plants file. This page is written by `silvasim "
+      "help "
       "--manual` from the tables that the parser works by.\n";
   for (const auto& [title, rules] : chapters(dialect)) {
     text += "\n## " + title + "\n";
     for (const ElementRule* rule : rules) {
-      text += "\n### `<" + rule->tag + ">`" + (rule->tag == rule->type ? "" : " (" + rule->type + ")") + "\n\n" + rule->help + "\n";
+      text += "\n### `<" + rule->tag + ">`" + (rule->tag == rule->type ? "" : " (" + rule->type + ")") + "\n\n" +
+              rule->help + "\n";
       const std::string content = inside(*rule, dialect);
       if (!content.empty()) text += "\n" + content + "\n";
       if (!rule->attributes.empty()) text += "\n| attribute | meaning |\n|---|---|\n";

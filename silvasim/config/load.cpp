@@ -72,7 +72,8 @@ void check_counts(Loading& loading, const Node& node) {
     const bool reported = std::any_of(loading.errors.begin(), loading.errors.end(),
                                       [&](const base::Diagnostic& d) { return d.place == extra.place; });
     if (!reported) {
-      loading.error(extra.place, "a second <" + extra.rule->tag + ">; the first stands at " + short_place(found[0]->place));
+      loading.error(extra.place,
+                    "a second <" + extra.rule->tag + ">; the first stands at " + short_place(found[0]->place));
     }
   }
 }

@@ -11,7 +11,9 @@ namespace {
 
 void read_no_data(Loading& loading, const Node& node, FieldSettings& field) {
   const std::string& policy = node.string("nodata");
-  field.no_data = policy == "ignore" ? NoDataPolicy::ignore : policy == "fill" ? NoDataPolicy::fill : NoDataPolicy::exclude;
+  field.no_data = policy == "ignore" ? NoDataPolicy::ignore
+                  : policy == "fill" ? NoDataPolicy::fill
+                                     : NoDataPolicy::exclude;
   if (field.no_data == NoDataPolicy::fill) {
     if (!node.has("fill")) {
       loading.error(node.place_of("nodata"), "nodata=\"fill\" needs the attribute \"fill\"");
@@ -31,7 +33,9 @@ void read_path(Loading& loading, const Node& node, FieldSettings& field) {
   }
 }
 
-FieldKind kind_of(const Node& node) { return node.string("kind") == "class" ? FieldKind::class_code : FieldKind::value; }
+FieldKind kind_of(const Node& node) {
+  return node.string("kind") == "class" ? FieldKind::class_code : FieldKind::value;
+}
 
 FieldSettings read_raster(Loading& loading, const Node& node) {
   FieldSettings field;
@@ -66,7 +70,7 @@ FieldSettings read_vector(Loading& loading, const Node& node) {
   field.attribute = node.string("attribute");
   if (node.has("resolution")) field.resolution_m = node.number("resolution");
   const std::string& measure = node.string("measure");
-  field.measure = measure == "distance" ? VectorMeasure::distance
+  field.measure = measure == "distance"    ? VectorMeasure::distance
                   : measure == "attribute" ? VectorMeasure::attribute
                                            : VectorMeasure::inside;
   if (field.measure == VectorMeasure::attribute && field.attribute.empty()) {
@@ -81,12 +85,15 @@ FieldSettings read_vector(Loading& loading, const Node& node) {
 }
 
 FieldSettings read_derived(Loading& loading, const Node& node) {
-  static const std::map<std::string, TerrainMeasure> measures = {
-      {"slope", TerrainMeasure::slope_deg},     {"aspect", TerrainMeasure::aspect_deg},
-      {"northness", TerrainMeasure::northness}, {"eastness", TerrainMeasure::eastness},
-      {"curvature", TerrainMeasure::curvature}, {"tpi", TerrainMeasure::tpi},
-      {"tri", TerrainMeasure::tri},             {"wetness", TerrainMeasure::wetness},
-      {"hillshade", TerrainMeasure::hillshade}};
+  static const std::map<std::string, TerrainMeasure> measures = {{"slope", TerrainMeasure::slope_deg},
+                                                                 {"aspect", TerrainMeasure::aspect_deg},
+                                                                 {"northness", TerrainMeasure::northness},
+                                                                 {"eastness", TerrainMeasure::eastness},
+                                                                 {"curvature", TerrainMeasure::curvature},
+                                                                 {"tpi", TerrainMeasure::tpi},
+                                                                 {"tri", TerrainMeasure::tri},
+                                                                 {"wetness", TerrainMeasure::wetness},
+                                                                 {"hillshade", TerrainMeasure::hillshade}};
   FieldSettings field;
   field.name = node.string("name");
   field.place = node.place;
@@ -109,8 +116,8 @@ void check_derived(Loading& loading, const Scenario& scenario) {
     if (field.source == Source::raster) rasters.push_back(field.name);
     if (!field.terrain) continue;
     if (terrain) {
-      loading.error(field.place, "data field \"" + field.name + "\" is a second terrain; the first is \"" + terrain->name +
-                                     "\" at " + short_place(terrain->place));
+      loading.error(field.place, "data field \"" + field.name + "\" is a second terrain; the first is \"" +
+                                     terrain->name + "\" at " + short_place(terrain->place));
     } else {
       terrain = &field;
     }
@@ -142,10 +149,12 @@ void read_scene(Loading& loading, const Node& ecosystem, Scenario& scenario) {
   const Node* size = node->child("Size");
   if (extent && size) loading.error(size->place, "<scene> takes an <extent> or a <size>, not both");
   if (extent) {
-    const base::Box box{extent->number("west"), extent->number("south"), extent->number("east"), extent->number("north")};
+    const base::Box box{extent->number("west"), extent->number("south"), extent->number("east"),
+                        extent->number("north")};
     const bool degrees = extent->boolean("degrees");
     if (box.west >= box.east) loading.error(extent->place, "<extent> reversed or empty: west must be less than east");
-    if (box.south >= box.north) loading.error(extent->place, "<extent> reversed or empty: south must be less than north");
+    if (box.south >= box.north)
+      loading.error(extent->place, "<extent> reversed or empty: south must be less than north");
     if (degrees && (box.west < -180 || box.east > 180 || box.south < -90 || box.north > 90)) {
       loading.error(extent->place, "<extent> in degrees lies outside -180 to 180 and -90 to 90");
     }

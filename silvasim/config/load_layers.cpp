@@ -36,17 +36,20 @@ TileSettings read_tiles(Loading& loading, const Node& layer) {
                                                        : RadiusDistribution::uniform;
     if (radii->has("mean")) tiles.mean_radius_m = radii->number("mean");
     if (radii->has("deviation")) tiles.deviation_radius_m = radii->number("deviation");
-    if (tiles.least_radius_m > tiles.most_radius_m) loading.error(radii->place, "<radii> reversed: least is above most");
+    if (tiles.least_radius_m > tiles.most_radius_m)
+      loading.error(radii->place, "<radii> reversed: least is above most");
     if (tiles.distribution == RadiusDistribution::uniform && (radii->given("mean") || radii->given("deviation"))) {
-      loading.error(radii->place, "<radii>: mean and deviation are used with distribution=\"normal\" or \"lognormal\" only");
+      loading.error(radii->place,
+                    "<radii>: mean and deviation are used with distribution=\"normal\" or \"lognormal\" only");
     }
   }
   if (tiles.variants > tiles.colours - 1) {
-    loading.error(node->place_of("variants"), "<tiles> variants: " + std::to_string(tiles.variants) + " is above colours - 1 = " +
-                                                  std::to_string(tiles.colours - 1));
+    loading.error(node->place_of("variants"), "<tiles> variants: " + std::to_string(tiles.variants) +
+                                                  " is above colours - 1 = " + std::to_string(tiles.colours - 1));
   }
   if (tiles.side_m <= 8 * tiles.most_radius_m) {
-    loading.error(node->place, "<tiles>: side " + to_text(tiles.side_m) + " m is not larger than 8 times the largest radius, " +
+    loading.error(node->place, "<tiles>: side " + to_text(tiles.side_m) +
+                                   " m is not larger than 8 times the largest radius, " +
                                    to_text(8 * tiles.most_radius_m) + " m; enlarge side or lessen radii");
   }
   return tiles;
@@ -99,8 +102,9 @@ void resolve_evaluator(Loading& loading, const Node& node, const Scenario& scena
       if (known.back() == reference->text) step.properties[s] = static_cast<int>(i);
     }
     if (step.properties[s] < 0) {
-      loading.error(layer.species[s].place, "plant \"" + layer.species[s].name + "\" has no property \"" + reference->text +
-                                                "\", which " + tag + " at " + short_place(node.place) + " asks for" +
+      loading.error(layer.species[s].place, "plant \"" + layer.species[s].name + "\" has no property \"" +
+                                                reference->text + "\", which " + tag + " at " +
+                                                short_place(node.place) + " asks for" +
                                                 base::did_you_mean(reference->text, known));
     }
   }
@@ -139,8 +143,8 @@ StepSettings read_pipeline(Loading& loading, const Node& node, const Scenario& s
   }
   for (const Node& child : node.children) {
     if (written && is_step(loading.dialect, child)) {
-      loading.error(child.place, "<" + child.rule->tag + "> stands beside the <pipeline> at " + short_place(written->place) +
-                                     "; move it inside");
+      loading.error(child.place, "<" + child.rule->tag + "> stands beside the <pipeline> at " +
+                                     short_place(written->place) + "; move it inside");
     }
   }
   if (pipeline.steps.empty()) {
@@ -204,8 +208,8 @@ class InfluenceMatrix {
   std::vector<base::Place> places_;
 };
 
-NeighbourhoodSettings read_neighbourhoods(Loading& loading, const Node& node, const Node& plants, const Scenario& scenario,
-                                          const LayerSettings& layer) {
+NeighbourhoodSettings read_neighbourhoods(Loading& loading, const Node& node, const Node& plants,
+                                          const Scenario& scenario, const LayerSettings& layer) {
   NeighbourhoodSettings settings;
   const Node* written = node.child("Neighbourhoods");
   std::vector<std::string> elsewhere;
@@ -231,7 +235,8 @@ NeighbourhoodSettings read_neighbourhoods(Loading& loading, const Node& node, co
     if (!here) continue;
     for (const Node* influence : plant->all("PlantInfluence")) {
       if (!written) {
-        loading.error(influence->place, "<influence> needs <neighbourhoods> in layer \"" + layer.name + "\", which has none");
+        loading.error(influence->place,
+                      "<influence> needs <neighbourhoods> in layer \"" + layer.name + "\", which has none");
       }
       matrix.add(name, influence->string("on"), influence->number("value"), influence->place);
     }
@@ -257,7 +262,8 @@ void read_layers(Loading& loading, const Node& ecosystem, Scenario& scenario) {
     const bool of_layer = is_step(loading.dialect, child) || type == "Tiles" || type == "Pipeline" ||
                           type == "Establishment" || type == "Neighbourhoods" || type == "Corners";
     if (explicit_layers && of_layer) {
-      loading.error(child.place, "<" + child.rule->tag + "> stands beside <layer> elements; move it into the one it is for");
+      loading.error(child.place,
+                    "<" + child.rule->tag + "> stands beside <layer> elements; move it into the one it is for");
     }
   }
   std::map<std::string, base::Place> seen;
@@ -267,12 +273,12 @@ void read_layers(Loading& loading, const Node& ecosystem, Scenario& scenario) {
     layer.name = explicit_layers ? node->string("name") : "plants";
     const auto [first, is_new] = seen.emplace(layer.name, layer.place);
     if (!is_new) {
-      loading.error(layer.place, "layer \"" + layer.name + "\" stands twice; the first is at " + short_place(first->second));
+      loading.error(layer.place,
+                    "layer \"" + layer.name + "\" stands twice; the first is at " + short_place(first->second));
     }
     layer.tiles = read_tiles(loading, *node);
     if (const Node* establishment = node->child("Establishment")) {
-      layer.selection =
-          establishment->string("selection") == "weighted" ? Selection::weighted : Selection::most_likely;
+      layer.selection = establishment->string("selection") == "weighted" ? Selection::weighted : Selection::most_likely;
       layer.chance = establishment->string("chance") == "certain" ? Chance::certain : Chance::stochastic;
     }
     if (const Node* corners = node->child("Corners")) {

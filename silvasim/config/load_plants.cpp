@@ -42,7 +42,8 @@ SpeciesSettings read_species(Loading& loading, const Node& node, std::size_t num
     }
   }
   species.name = plant_name(node);
-  if (species.name.empty()) loading.error(node.place, "<plant> has neither a name nor a <model> file to be named after");
+  if (species.name.empty())
+    loading.error(node.place, "<plant> has neither a name nor a <model> file to be named after");
 
   const Node* scale = node.child("Scale");
   species.most_scale = unbounded_scale;
@@ -94,8 +95,8 @@ void read_plants(Loading& loading, const Node& plants, Scenario& scenario) {
     std::size_t index = 0;
     while (!layer.empty() && index < layer_names.size() && layer_names[index] != layer) ++index;
     if (index >= layer_names.size()) {
-      loading.error(node->place_of("layer"), "plant \"" + species.name + "\" grows in the unknown layer \"" + layer + "\"" +
-                                                 base::did_you_mean(layer, layer_names));
+      loading.error(node->place_of("layer"), "plant \"" + species.name + "\" grows in the unknown layer \"" + layer +
+                                                 "\"" + base::did_you_mean(layer, layer_names));
       continue;
     }
     scenario.layers[index].species.push_back(std::move(species));
@@ -104,7 +105,8 @@ void read_plants(Loading& loading, const Node& plants, Scenario& scenario) {
   for (const LayerSettings& layer : scenario.layers) {
     if (layer.species.empty()) loading.error(layer.place, "no plant grows in layer \"" + layer.name + "\"");
     if (layer.species.size() > most_species) {
-      loading.error(layer.place, "layer \"" + layer.name + "\" has more than " + std::to_string(most_species) + " plants");
+      loading.error(layer.place,
+                    "layer \"" + layer.name + "\" has more than " + std::to_string(most_species) + " plants");
     }
   }
 }

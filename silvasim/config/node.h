@@ -16,9 +16,9 @@ using Value = std::variant<std::monostate, double, bool, std::string>;
 struct Node {
   const ElementRule* rule = nullptr;  // in the dialect, which outlives the node
   base::Place place;
-  std::vector<Value> values;          // one for each rule->attributes
-  std::vector<base::Place> places;    // of the attributes; line 0 where the default was taken
-  std::string text;                   // trimmed
+  std::vector<Value> values;        // one for each rule->attributes
+  std::vector<base::Place> places;  // of the attributes; line 0 where the default was taken
+  std::string text;                 // trimmed
   Value text_value;
   std::vector<Node> children;
 

@@ -11,11 +11,11 @@
 namespace silvasim::config {
 
 enum class ValueType {
-  none,      // no text content
-  text,      // anything
-  name,      // not empty
-  path,      // a file, relative to the XML file
-  number,    // a plain number in the data field's own unit
+  none,    // no text content
+  text,    // anything
+  name,    // not empty
+  path,    // a file, relative to the XML file
+  number,  // a plain number in the data field's own unit
   integer,
   boolean,   // true | false
   fraction,  // 0 to 1, or a percentage: 0.25, 25 %
@@ -38,7 +38,7 @@ struct AttributeRule {
 struct ChildRule {
   std::string type;  // ElementRule::type
   int least = 0;
-  int most = -1;     // -1: any number
+  int most = -1;  // -1: any number
 };
 
 struct ElementRule {
@@ -71,7 +71,7 @@ struct EvaluatorNeeds {
   bool property_optional = false;
   bool lethal_by_default = false;
 };
-ElementRule evaluator_rule(std::string tag, std::string help, std::vector<AttributeRule> attributes, EvaluatorNeeds needs,
-                           std::string example);
+ElementRule evaluator_rule(std::string tag, std::string help, std::vector<AttributeRule> attributes,
+                           EvaluatorNeeds needs, std::string example);
 
 }  // namespace silvasim::config

@@ -22,20 +22,21 @@ struct PropertySettings {
   Node response;  // the element inside <property>: <MinMax>, <Gauss>, ...
 };
 
-inline constexpr double unbounded_scale = 1e9;  // finite, so that it may pass through rooms that compile without infinities
+inline constexpr double unbounded_scale =
+    1e9;  // finite, so that it may pass through rooms that compile without infinities
 
 struct SpeciesSettings {
   std::string name;
   std::string common_name;
   base::Place place;
-  std::uint32_t colour = 0;     // 0xRRGGBB
-  std::string model;            // as written; may be empty
-  double model_radius_m = 4;    // crown radius at scale 1
-  double height_m = 16;         // at scale 1
-  double stem_radius_m = 0.2;   // at scale 1
+  std::uint32_t colour = 0;    // 0xRRGGBB
+  std::string model;           // as written; may be empty
+  double model_radius_m = 4;   // crown radius at scale 1
+  double height_m = 16;        // at scale 1
+  double stem_radius_m = 0.2;  // at scale 1
   double least_scale = 0;
   double most_scale = unbounded_scale;
-  double fon_radius_m = 8;      // radius of the field of neighbourhood at scale 1
+  double fon_radius_m = 8;  // radius of the field of neighbourhood at scale 1
   std::vector<PropertySettings> properties;
 };
 
@@ -44,24 +45,24 @@ struct StepSettings {
   enum class Kind { evaluator, product, length };
   Kind kind = Kind::evaluator;
   base::Place place;
-  std::vector<StepSettings> steps;   // of a group
+  std::vector<StepSettings> steps;  // of a group
 
   // Of an evaluator:
-  int evaluator = -1;                // index into Dialect::evaluators
+  int evaluator = -1;  // index into Dialect::evaluators
   Node node;
   bool lethal = false;
   double floor = 0.01;
-  int field = -1;                    // index into Scenario::fields; -1: needs none
-  std::vector<int> properties;       // a species: index into its properties; -1: none, or the evaluator skips the species
-  std::vector<bool> applies;         // a species: whether the evaluator acts on it
+  int field = -1;               // index into Scenario::fields; -1: needs none
+  std::vector<int> properties;  // a species: index into its properties; -1: none, or the evaluator skips the species
+  std::vector<bool> applies;    // a species: whether the evaluator acts on it
 };
 
 struct NeighbourhoodSettings {
   bool enabled = false;
-  double cell_m = 0;                 // 0: from the density of the sites
+  double cell_m = 0;  // 0: from the density of the sites
   int passes = 2;
   double fmin = 0.1;
-  std::vector<double> influence;     // species x species, [from * count + on]
+  std::vector<double> influence;  // species x species, [from * count + on]
 };
 
 enum class Selection { most_likely, weighted };
@@ -71,7 +72,7 @@ struct LayerSettings {
   std::string name;
   base::Place place;
   TileSettings tiles;
-  StepSettings pipeline;             // a group
+  StepSettings pipeline;  // a group
   Selection selection = Selection::most_likely;
   Chance chance = Chance::stochastic;
   NeighbourhoodSettings neighbourhoods;
@@ -81,7 +82,7 @@ struct LayerSettings {
 
 // A configuration file as it was read, for provenance.
 struct SourceFile {
-  std::string path;                  // as named on the command line or in the XML
+  std::string path;  // as named on the command line or in the XML
   std::string text;
   std::string sha256;
 };

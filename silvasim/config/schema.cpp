@@ -12,11 +12,20 @@ std::string escaped(const std::string& text) {
   std::string out;
   for (char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
     }
   }
   return out;
@@ -28,15 +37,23 @@ std::string documentation(const std::string& help, const std::string& indent) {
 
 const char* simple_type(ValueType type) {
   switch (type) {
-    case ValueType::number: return "NumberValue";
-    case ValueType::integer: return "WholeValue";
-    case ValueType::boolean: return "xs:boolean";
-    case ValueType::fraction: return "ShareValue";
-    case ValueType::length: return "LengthValue";
-    case ValueType::colour: return "ColourValue";
+    case ValueType::number:
+      return "NumberValue";
+    case ValueType::integer:
+      return "WholeValue";
+    case ValueType::boolean:
+      return "xs:boolean";
+    case ValueType::fraction:
+      return "ShareValue";
+    case ValueType::length:
+      return "LengthValue";
+    case ValueType::colour:
+      return "ColourValue";
     case ValueType::name:
-    case ValueType::path: return "TextValue";
-    default: return "xs:string";
+    case ValueType::path:
+      return "TextValue";
+    default:
+      return "xs:string";
   }
 }
 
@@ -47,7 +64,8 @@ std::string attribute(const AttributeRule& rule, const std::string& indent) {
   if (rule.type != ValueType::choice) {
     out += " type=\"" + std::string(simple_type(rule.type)) + "\">\n" + documentation(rule.help, indent + "  ");
   } else {
-    out += ">\n" + documentation(rule.help, indent + "  ") + indent + "  <xs:simpleType><xs:restriction base=\"xs:token\">";
+    out += ">\n" + documentation(rule.help, indent + "  ") + indent +
+           "  <xs:simpleType><xs:restriction base=\"xs:token\">";
     for (const std::string& choice : rule.choices) out += "<xs:enumeration value=\"" + escaped(choice) + "\"/>";
     out += "</xs:restriction></xs:simpleType>\n";
   }

@@ -1,8 +1,8 @@
 // Validation against the schema, by libxml2.
-#include <memory>
-
 #include <libxml/parser.h>
 #include <libxml/xmlschemas.h>
+
+#include <memory>
 
 #include "silvasim/config/schema.h"
 #include "silvasim/config/value.h"
@@ -18,7 +18,8 @@ struct Findings {
 
 void collect(void* context, xmlErrorPtr error) {
   auto& findings = *static_cast<Findings*>(context);
-  findings.found.push_back({{findings.file, error->line, 0}, "schema: " + trimmed(error->message ? error->message : "")});
+  findings.found.push_back(
+      {{findings.file, error->line, 0}, "schema: " + trimmed(error->message ? error->message : "")});
 }
 
 template <typename T, void (*free)(T*)>

@@ -1,9 +1,9 @@
 #include "silvasim/config/value.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <algorithm>
 
 #include "silvasim/base/error.h"
 
@@ -70,7 +70,8 @@ ParsedValue parse_number(const std::string& text, ValueType type, double least, 
     } else if (type == ValueType::fraction) {
       problem = apply_unit(text, fraction_units, number, unit);
     } else if (!unit.empty()) {
-      problem = quoted(text) + " has " + quoted(unit) + " after the number; it takes a plain number in the unit of its data field";
+      problem = quoted(text) + " has " + quoted(unit) +
+                " after the number; it takes a plain number in the unit of its data field";
     }
   }
   if (problem.empty() && type == ValueType::integer && number != std::floor(number)) {
@@ -139,8 +140,8 @@ ParsedValue parse_value(const std::string& text, ValueType type, const std::vect
       for (const std::string& choice : choices) {
         if (text == choice) return {text, ""};
       }
-      return {Value{}, quoted(text) + " is none of " + describe(type, choices, least, most) +
-                           base::did_you_mean(text, choices)};
+      return {Value{},
+              quoted(text) + " is none of " + describe(type, choices, least, most) + base::did_you_mean(text, choices)};
   }
   return {};
 }
@@ -158,16 +159,26 @@ std::string describe(ValueType type, const std::vector<std::string>& choices, do
     range = ", at most " + to_text(most);
   }
   switch (type) {
-    case ValueType::none: return "nothing";
-    case ValueType::text: return "text";
-    case ValueType::name: return "a name";
-    case ValueType::path: return "a file, relative to this one";
-    case ValueType::number: return "a number" + range;
-    case ValueType::integer: return "a whole number" + range;
-    case ValueType::boolean: return "true or false";
-    case ValueType::fraction: return "a share from 0 to 1, or a percentage";
-    case ValueType::length: return "a length in metres, or with m, km, cm, mm, ft" + range;
-    case ValueType::colour: return "a colour like #1f5f3a";
+    case ValueType::none:
+      return "nothing";
+    case ValueType::text:
+      return "text";
+    case ValueType::name:
+      return "a name";
+    case ValueType::path:
+      return "a file, relative to this one";
+    case ValueType::number:
+      return "a number" + range;
+    case ValueType::integer:
+      return "a whole number" + range;
+    case ValueType::boolean:
+      return "true or false";
+    case ValueType::fraction:
+      return "a share from 0 to 1, or a percentage";
+    case ValueType::length:
+      return "a length in metres, or with m, km, cm, mm, ft" + range;
+    case ValueType::colour:
+      return "a colour like #1f5f3a";
     case ValueType::choice: {
       std::string words;
       for (const std::string& choice : choices) words += (words.empty() ? "" : ", ") + choice;

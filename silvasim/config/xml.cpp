@@ -1,8 +1,8 @@
 #include "silvasim/config/xml.h"
 
-#include <limits>
-
 #include <tinyxml2.h>
+
+#include <limits>
 
 #include "silvasim/config/value.h"
 #include "silvasim/config/xml_text.h"
@@ -77,12 +77,19 @@ void Reader::attributes(const tinyxml2::XMLElement& xml, Node& node) {
       node.values[i] = parse_value(fallback, rules[i].type, rules[i].choices, rules[i].least, rules[i].most).value;
     } else if (rules[i].required) {
       switch (rules[i].type) {
-        case ValueType::boolean: node.values[i] = false; break;
+        case ValueType::boolean:
+          node.values[i] = false;
+          break;
         case ValueType::text:
         case ValueType::name:
-        case ValueType::path: node.values[i] = std::string(); break;
-        case ValueType::choice: node.values[i] = rules[i].choices.front(); break;
-        default: node.values[i] = 0.0;
+        case ValueType::path:
+          node.values[i] = std::string();
+          break;
+        case ValueType::choice:
+          node.values[i] = rules[i].choices.front();
+          break;
+        default:
+          node.values[i] = 0.0;
       }
     }
   }
@@ -161,16 +168,26 @@ void Reader::child_counts(Node& node) {
 
 std::string library_message(const tinyxml2::XMLDocument& document) {
   switch (document.ErrorID()) {
-    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT: return "the file has no XML in it";
-    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT: return "an element is not closed, or closed by another name";
-    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE: return "an attribute is malformed or stands twice";
-    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED: return "elements are nested too deep";
-    case tinyxml2::XML_ERROR_PARSING_COMMENT: return "a comment is not closed";
-    case tinyxml2::XML_ERROR_PARSING_CDATA: return "a CDATA section is not closed";
-    case tinyxml2::XML_ERROR_PARSING_ELEMENT: return "an element is malformed";
-    case tinyxml2::XML_ERROR_PARSING_TEXT: return "text outside of an element";
-    case tinyxml2::XML_ERROR_PARSING_DECLARATION: return "the XML declaration is malformed or not at the start";
-    default: return "not well-formed XML";
+    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
+      return "the file has no XML in it";
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return "an element is not closed, or closed by another name";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "an attribute is malformed or stands twice";
+    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
+      return "elements are nested too deep";
+    case tinyxml2::XML_ERROR_PARSING_COMMENT:
+      return "a comment is not closed";
+    case tinyxml2::XML_ERROR_PARSING_CDATA:
+      return "a CDATA section is not closed";
+    case tinyxml2::XML_ERROR_PARSING_ELEMENT:
+      return "an element is malformed";
+    case tinyxml2::XML_ERROR_PARSING_TEXT:
+      return "text outside of an element";
+    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
+      return "the XML declaration is malformed or not at the start";
+    default:
+      return "not well-formed XML";
   }
 }
 
@@ -179,8 +196,9 @@ std::string library_message(const tinyxml2::XMLDocument& document) {
 std::optional<Node> parse_xml(const std::string& text, const std::string& file, const Dialect& dialect,
                               const std::string& root, std::vector<base::Diagnostic>& errors) {
   if (text.size() > most_config_bytes) {
-    errors.push_back({{file, 0, 0}, "the file has " + std::to_string(text.size()) + " bytes; a configuration has at most " +
-                                        std::to_string(most_config_bytes)});
+    errors.push_back({{file, 0, 0},
+                      "the file has " + std::to_string(text.size()) + " bytes; a configuration has at most " +
+                          std::to_string(most_config_bytes)});
     return std::nullopt;
   }
   if (auto problem = check_xml_text(text, file)) {

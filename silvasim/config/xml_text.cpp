@@ -54,7 +54,7 @@ bool known_entity(std::string_view rest) {
   for (std::size_t i = hexadecimal ? 3 : 2; i < rest.size(); ++i, ++digits) {
     const char c = rest[i];
     if (c == ';') return digits > 0 && allowed_in_xml(code) && code <= 0x10FFFF && !(code >= 0xD800 && code < 0xE000);
-    const int digit = c >= '0' && c <= '9' ? c - '0'
+    const int digit = c >= '0' && c <= '9'                  ? c - '0'
                       : hexadecimal && c >= 'a' && c <= 'f' ? c - 'a' + 10
                       : hexadecimal && c >= 'A' && c <= 'F' ? c - 'A' + 10
                                                             : -1;

@@ -41,9 +41,10 @@ std::vector<std::unique_ptr<Response>> EvaluatorMaking::responses(const std::vec
     if (!asked || !asked->response.rule) continue;
     const std::string& kind = asked->response.rule->type;
     if (std::find(accepted.begin(), accepted.end(), kind) == accepted.end()) {
-      errors.push_back({asked->response.place, "property \"" + asked->name + "\" of \"" + layer.species[s].name + "\" is a <" +
-                                                   kind + ">, but <" + step.node.rule->tag + "> at " + step.place.file + ":" +
-                                                   std::to_string(step.place.line) + " takes " + list(accepted)});
+      errors.push_back({asked->response.place, "property \"" + asked->name + "\" of \"" + layer.species[s].name +
+                                                   "\" is a <" + kind + ">, but <" + step.node.rule->tag + "> at " +
+                                                   step.place.file + ":" + std::to_string(step.place.line) + " takes " +
+                                                   list(accepted)});
     } else {
       responses.back() = make_response(asked->response, errors);
     }

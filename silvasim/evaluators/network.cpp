@@ -54,8 +54,9 @@ struct Making {
                                             "\" holds classes; use a <ClassEvaluator>"});
     }
     if (!classes && type.field == FieldNeed::class_code) {
-      errors.push_back({settings.place, "<" + type.rule.tag + "> needs classes, but data field \"" + field.name +
-                                            "\" is a quantity; say kind=\"class\" there, or use a <FunctionEvaluator>"});
+      errors.push_back(
+          {settings.place, "<" + type.rule.tag + "> needs classes, but data field \"" + field.name +
+                               "\" is a quantity; say kind=\"class\" there, or use a <FunctionEvaluator>"});
     }
   }
 };
@@ -69,8 +70,8 @@ std::size_t depth_of(const std::vector<Step>& steps) {
 std::vector<std::vector<Step>> make_stages(Making& making) {
   std::vector<std::vector<Step>> stages(1);
   for (const config::StepSettings& settings : making.layer.pipeline.steps) {
-    const bool normalizes = settings.kind == Kind::evaluator &&
-                            evaluator_types()[static_cast<std::size_t>(settings.evaluator)].normalizes;
+    const bool normalizes =
+        settings.kind == Kind::evaluator && evaluator_types()[static_cast<std::size_t>(settings.evaluator)].normalizes;
     if (normalizes) {
       stages.emplace_back();
     } else {
@@ -83,7 +84,8 @@ std::vector<std::vector<Step>> make_stages(Making& making) {
 // Runs steps for one species over one block. `alive` is 1 or 0 a site; a lethal zero or missing data makes it 0.
 class Runner {
  public:
-  Runner(const Network::Block& block, std::size_t species, float* alive) : block_(block), species_(species), alive_(alive) {}
+  Runner(const Network::Block& block, std::size_t species, float* alive)
+      : block_(block), species_(species), alive_(alive) {}
 
   // Joins the steps' results into `result`. `carried`, if any, is the first component. `scratch`: two columns a level.
   void join(Kind kind, const std::vector<Step>& steps, const float* carried, float* result, float* scratch) {
@@ -179,8 +181,8 @@ void Network::run(std::size_t stage, const Block& block, Scratch& scratch, float
         carried[i] = before >= 0.0f ? before : 0.0f;
       }
     }
-    Runner(block, s, alive).join(layer_.pipeline.kind, stages_[stage], stage > 0 ? carried : nullptr, result,
-                                 result + block_size);
+    Runner(block, s, alive)
+        .join(layer_.pipeline.kind, stages_[stage], stage > 0 ? carried : nullptr, result, result + block_size);
     for (std::size_t i = 0; i < n; ++i) probability[i * count + s] = alive[i] > 0.0f ? result[i] : excluded;
   }
 }

@@ -20,8 +20,8 @@ namespace silvasim::evaluators {
 struct Ground {
   const tiles::TileSet& tile_set;
   const tiles::Tiling& tiling;
-  base::Point north_west;                      // scene point of the tiling's corner
-  const std::vector<std::uint64_t>& offsets;   // first site of each tile position, and the total
+  base::Point north_west;                     // scene point of the tiling's corner
+  const std::vector<std::uint64_t>& offsets;  // first site of each tile position, and the total
   const fields::FieldSet& fields;
 };
 

@@ -14,7 +14,7 @@ namespace silvasim::population {
 struct InfluenceField {
   float reach_m = 0;  // R
   float stem_m = 0;
-  float decay = 0;    // c, 1/m
+  float decay = 0;  // c, 1/m
 
   // 0 beyond the reach.
   float at(float distance_m) const {

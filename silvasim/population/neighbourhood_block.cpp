@@ -32,9 +32,10 @@ NeighbourhoodBlock::Result NeighbourhoodBlock::run(int column, int row, int pass
   surrounded_ = probability_;
   if (pass > 0) weigh_last_pass();
   for (std::size_t i = 0; i < x_.size(); ++i) update(i);
-  const Result result = fix_all(base::Stream(shared_.seed, base::Purpose::neighbourhood, static_cast<std::uint32_t>(column),
-                                             static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(pass)),
-                                pass);
+  const Result result =
+      fix_all(base::Stream(shared_.seed, base::Purpose::neighbourhood, static_cast<std::uint32_t>(column),
+                           static_cast<std::uint32_t>(row), static_cast<std::uint32_t>(pass)),
+              pass);
   store(population);
   return result;
 }
@@ -101,7 +102,8 @@ void NeighbourhoodBlock::load(const Population& population, int pass) {
     certainty_[i] = 0;
     chosen_[i] = 0;
     last_plant_[i] = population.plants[site.index];
-    std::copy_n(shared_.suitability.probability.data() + site.index * species, species, probability_.data() + i * species);
+    std::copy_n(shared_.suitability.probability.data() + site.index * species, species,
+                probability_.data() + i * species);
   }
   // In the first pass nobody stands yet; later the last pass's plants stand until their site is fixed anew.
   if (pass == 0) {

@@ -15,8 +15,8 @@ namespace silvasim::population {
 // How the land is cut into blocks of whole tiles and the blocks into cells.
 struct BlockLayout {
   double cell_m = 0;
-  int block_tiles = 1;      // tiles along a block's side
-  int cells = 1;            // cells along a block's side
+  int block_tiles = 1;        // tiles along a block's side
+  int cells = 1;              // cells along a block's side
   int columns = 1, rows = 1;  // blocks
 };
 
@@ -80,11 +80,11 @@ class NeighbourhoodBlock {
   std::vector<float> x_, y_, radius_m_;
   std::vector<std::uint64_t> index_;  // in the population
   std::vector<SiteKey> key_;
-  std::vector<float> surrounded_;     // probabilities weighed with the plants outside the block; sites x species
-  std::vector<float> probability_;    // the current ones
-  std::vector<float> certainty_;      // < 0: fixed
+  std::vector<float> surrounded_;   // probabilities weighed with the plants outside the block; sites x species
+  std::vector<float> probability_;  // the current ones
+  std::vector<float> certainty_;    // < 0: fixed
   std::vector<ecosystem::PlantId> plant_, last_plant_, candidate_;
-  std::vector<float> chosen_;         // probability of the candidate at fixing
+  std::vector<float> chosen_;  // probability of the candidate at fixing
   std::vector<std::uint32_t> cell_start_;
   std::vector<std::uint32_t> unfixed_;  // a cell: how many
   std::vector<std::uint32_t> live_;     // cells that hold unfixed sites

@@ -1,10 +1,10 @@
 #include "silvasim/population/neighbourhoods.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-
-#include <tbb/enumerable_thread_specific.h>
 
 #include "silvasim/base/parallel.h"
 #include "silvasim/population/neighbourhood_block.h"
@@ -41,7 +41,8 @@ BlockLayout lay_out(const evaluators::Ground& ground, double cell_m, double reac
   }
   // A plant must not reach beyond the blocks that touch its own; and one block may be asked for.
   while (layout.block_tiles * side < reach_m && layout.block_tiles < across) layout.block_tiles += tiles_a_cell;
-  if (one_block || layout.block_tiles > across) layout.block_tiles = (across + tiles_a_cell - 1) / tiles_a_cell * tiles_a_cell;
+  if (one_block || layout.block_tiles > across)
+    layout.block_tiles = (across + tiles_a_cell - 1) / tiles_a_cell * tiles_a_cell;
   layout.cells = cells_a_tile > 0 ? layout.block_tiles * cells_a_tile : layout.block_tiles / tiles_a_cell;
   layout.columns = (ground.tiling.columns + layout.block_tiles - 1) / layout.block_tiles;
   layout.rows = (ground.tiling.rows + layout.block_tiles - 1) / layout.block_tiles;
@@ -55,7 +56,8 @@ Competition compete(const evaluators::Suitability& suitability, const evaluators
                     const base::Progress& progress) {
   const Influences influences(layer);
   const float reach = influences.most_reach(static_cast<float>(ground.tile_set.most_radius_m));
-  const BlockLayout layout = lay_out(ground, layer.neighbourhoods.cell_m, static_cast<double>(reach), options.one_block);
+  const BlockLayout layout =
+      lay_out(ground, layer.neighbourhoods.cell_m, static_cast<double>(reach), options.one_block);
   const CompetitionGround shared{suitability, ground, layer, influences, layout, seed, reach};
 
   Competition competition;

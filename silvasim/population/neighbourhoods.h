@@ -25,10 +25,11 @@ namespace silvasim::population {
 
 struct NeighbourhoodReport {
   int passes = 0;
-  std::vector<std::uint64_t> changed;  // a pass: sites whose plant differs from the pass before (the first: plants standing)
-  std::uint64_t fixings = 0;           // in all passes
-  double cell_m = 0;                   // the grid cell that was used: it divides the tile's side, or is a multiple of it
-  int block_tiles = 0;                 // tiles along a block's side
+  std::vector<std::uint64_t>
+      changed;                // a pass: sites whose plant differs from the pass before (the first: plants standing)
+  std::uint64_t fixings = 0;  // in all passes
+  double cell_m = 0;          // the grid cell that was used: it divides the tile's side, or is a multiple of it
+  int block_tiles = 0;        // tiles along a block's side
 };
 
 struct NeighbourhoodOptions {

@@ -44,8 +44,8 @@ Choice choose(const float* probability, std::size_t species, config::Selection s
     choice.candidate = drawn_in_proportion(probability, species, draw);
   }
   choice.probability = probability[choice.candidate];
-  choice.stands = chance == config::Chance::certain ||
-                  base::uniform_at(seed, base::Purpose::establishment, key.column, key.row, key.site) < choice.probability;
+  choice.stands = chance == config::Chance::certain || base::uniform_at(seed, base::Purpose::establishment, key.column,
+                                                                        key.row, key.site) < choice.probability;
   return choice;
 }
 

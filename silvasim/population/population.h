@@ -16,9 +16,9 @@
 namespace silvasim::population {
 
 struct Population {
-  std::vector<ecosystem::PlantId> plants;  // no_plant: nothing stands there
+  std::vector<ecosystem::PlantId> plants;      // no_plant: nothing stands there
   std::vector<ecosystem::PlantId> candidates;  // which species the site takes, whether chance lets it come up or not
-  std::vector<float> probability;          // growth probability of the site's candidate, 0 where there is none
+  std::vector<float> probability;              // growth probability of the site's candidate, 0 where there is none
 };
 
 // From the abiotic place alone: each site takes its candidate, which stands or not by chance. `seed`: the layer's.

@@ -37,8 +37,9 @@ Folder* Commands::folder_ = nullptr;
 nlohmann::json* Commands::report_ = nullptr;
 
 TEST_F(Commands, RunReportsWhatTheManualPromises) {
-  for (const char* key : {"sites", "plants", "plants_by_species", "tiles", "corner_conflicts", "corner_removed", "neighbourhood_passes", "seconds",
-                          "peak_rss_bytes", "threads", "seed", "version", "config_sha256"}) {
+  for (const char* key :
+       {"sites", "plants", "plants_by_species", "tiles", "corner_conflicts", "corner_removed", "neighbourhood_passes",
+        "seconds", "peak_rss_bytes", "threads", "seed", "version", "config_sha256"}) {
     EXPECT_TRUE(report_->contains(key)) << key;
   }
   EXPECT_TRUE((*report_)["seconds"].contains("total"));
@@ -85,7 +86,8 @@ TEST_F(Commands, PreviewDrawsMapsAndProbabilities) {
 
 TEST_F(Commands, ExplainTellsASentence) {
   const auto extent = (*report_)["extent"];
-  const double x = (extent["west"].get<double>() + extent["east"].get<double>()) / 2, y = (extent["south"].get<double>() + extent["north"].get<double>()) / 2;
+  const double x = (extent["west"].get<double>() + extent["east"].get<double>()) / 2,
+               y = (extent["south"].get<double>() + extent["north"].get<double>()) / 2;
   const std::string at = std::to_string(x) + "," + std::to_string(y);
   const auto json = silvasim({"explain", scenario(), "--at", at, "--json", "-q"}).json();
   const auto& layer = json["layers"][0];
@@ -136,7 +138,8 @@ TEST(CommandLine, ConfigurationErrorsAreExitCodeTwoWithPlaces) {
   for (const char* command : {"validate", "run"}) {
     const Outcome outcome = silvasim({command, folder / "ecosystem.xml"});
     EXPECT_EQ(outcome.code, 2);
-    EXPECT_THAT(outcome.err, HasSubstr("ecosystem.xml:2:10: error: <tiles> has no attribute \"sid\"; did you mean \"side\"?"));
+    EXPECT_THAT(outcome.err,
+                HasSubstr("ecosystem.xml:2:10: error: <tiles> has no attribute \"sid\"; did you mean \"side\"?"));
   }
   const auto json = silvasim({"validate", folder / "ecosystem.xml", "--json"}).json();
   EXPECT_FALSE(json["valid"].get<bool>());

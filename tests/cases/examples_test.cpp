@@ -18,7 +18,8 @@ TEST(Examples, EachIsValidAndXmllintAgrees) {
     for (const char* name : {"ecosystem.xml", "plants.xml"}) {
       const auto file = path.parent_path() / name;
       if (!std::filesystem::exists(file)) continue;
-      const Outcome lint = program({"xmllint", "--nonet", "--noout", "--schema", source("configs/silva.xsd"), file.string()});
+      const Outcome lint =
+          program({"xmllint", "--nonet", "--noout", "--schema", source("configs/silva.xsd"), file.string()});
       EXPECT_EQ(lint.code, 0) << lint.err;
     }
   }
@@ -29,13 +30,15 @@ TEST(Examples, TheShippedSchemaIsTheOneThatIsPrinted) {
 }
 
 TEST(Examples, TheManualPageIsTheOneThatIsPrinted) {
-  EXPECT_EQ(read(source("docs/dialect.md")), silvasim({"help", "--manual"}).out) << "run: silvasim help --manual > docs/dialect.md";
+  EXPECT_EQ(read(source("docs/dialect.md")), silvasim({"help", "--manual"}).out)
+      << "run: silvasim help --manual > docs/dialect.md";
 }
 
 TEST(Examples, EachGrowsPlantsOfMostOfItsSpecies) {
   for (const auto& path : examples()) {
     const Folder folder;
-    const Outcome outcome = silvasim({"run", path.string(), "-o", folder / "e.silva", "--png", folder / "e.png", "--svg", folder / "e.svg", "--json", "-q"});
+    const Outcome outcome = silvasim({"run", path.string(), "-o", folder / "e.silva", "--png", folder / "e.png",
+                                      "--svg", folder / "e.svg", "--json", "-q"});
     ASSERT_EQ(outcome.code, 0) << path << "\n" << outcome.err;
     const auto json = outcome.json();
     EXPECT_GT(json["plants"].get<int>(), 100) << path;

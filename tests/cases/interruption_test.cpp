@@ -15,7 +15,8 @@ namespace {
 int run_and_signal(const Folder& folder, int signal, int after_ms) {
   const pid_t child = fork();
   if (child == 0) {
-    const std::string binary = std::string(SILVA_BINARY_DIR) + "/silvasim", scenario = source("configs/demo/ecosystem.xml");
+    const std::string binary = std::string(SILVA_BINARY_DIR) + "/silvasim",
+                      scenario = source("configs/demo/ecosystem.xml");
     const std::string out = folder / "e.silva", png = folder / "e.png";
     execl(binary.c_str(), "silvasim", "run", scenario.c_str(), "-o", out.c_str(), "--png", png.c_str(), "-q", nullptr);
     _exit(127);

@@ -19,11 +19,12 @@ std::string shared(const std::string& path) { return std::string(SILVA_SHARED_DI
 std::map<std::string, double> mean_elevations(const ecosystem::Ecosystem& e) {
   std::map<std::string, std::pair<double, double>> sums;
   for (const auto& layer : e.layers) {
-    ecosystem::for_each_plant(layer, ecosystem::site_offsets(layer.tile_set, layer.tiling), 0, layer.tiling.rows, [&](const ecosystem::Plant& plant) {
-      auto& [sum, count] = sums[layer.species[plant.species].name];
-      sum += ecosystem::height_at(e.terrain, plant.at);
-      count += 1;
-    });
+    ecosystem::for_each_plant(layer, ecosystem::site_offsets(layer.tile_set, layer.tiling), 0, layer.tiling.rows,
+                              [&](const ecosystem::Plant& plant) {
+                                auto& [sum, count] = sums[layer.species[plant.species].name];
+                                sum += ecosystem::height_at(e.terrain, plant.at);
+                                count += 1;
+                              });
   }
   std::map<std::string, double> means;
   for (const auto& [name, sum] : sums) means[name] = sum.first / sum.second;
@@ -80,7 +81,8 @@ std::map<std::string, double> stands_by_code() {
 TEST(Places, RainiersSpeciesStandInTheOrderOfTheStands) {
   if (!std::filesystem::exists(shared("rainier"))) GTEST_SKIP() << "SKIPPED: there is no " << shared("rainier");
   const Folder folder;
-  const Outcome outcome = silvasim({"run", source("tests/places/rainier/ecosystem.xml"), "-o", folder / "r.silva", "--json", "-q"});
+  const Outcome outcome =
+      silvasim({"run", source("tests/places/rainier/ecosystem.xml"), "-o", folder / "r.silva", "--json", "-q"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   const auto grown = mean_elevations(ecosystem::read(folder / "r.silva"));
   const auto measured = stands_by_code();
@@ -96,7 +98,8 @@ TEST(Places, RainiersSpeciesStandInTheOrderOfTheStands) {
     if (name == codes.end() || !grown.contains(name->second)) continue;
     simulated.push_back(grown.at(name->second));
     real.push_back(elevation);
-    std::cout << code << " " << name->second << ": stands " << elevation << " m, grown " << grown.at(name->second) << " m\n";
+    std::cout << code << " " << name->second << ": stands " << elevation << " m, grown " << grown.at(name->second)
+              << " m\n";
   }
   ASSERT_GE(simulated.size(), 6u);
   const double rho = correlation(ranks(simulated), ranks(real));
@@ -107,7 +110,8 @@ TEST(Places, RainiersSpeciesStandInTheOrderOfTheStands) {
 TEST(Places, NorthCarolinaGrowsFromThreeCoordinateSystems) {
   if (!std::filesystem::exists(shared("nc_wake"))) GTEST_SKIP() << "SKIPPED: there is no " << shared("nc_wake");
   const Folder folder;
-  const Outcome outcome = silvasim({"run", source("tests/places/nc_wake/ecosystem.xml"), "-o", folder / "n.silva", "--json", "-q"});
+  const Outcome outcome =
+      silvasim({"run", source("tests/places/nc_wake/ecosystem.xml"), "-o", folder / "n.silva", "--json", "-q"});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_GT(outcome.json()["plants"].get<long>(), 10000);
 }

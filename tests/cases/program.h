@@ -31,7 +31,7 @@ class Folder {
   std::filesystem::path path_;
 };
 
-std::string source(const std::string& path);  // a path inside the project
+std::string source(const std::string& path);    // a path inside the project
 std::vector<std::filesystem::path> examples();  // configs/*/ecosystem.xml
 void write(const std::string& path, const std::string& text);
 std::string read(const std::string& path);

@@ -8,12 +8,14 @@ namespace silvasim::cases {
 namespace {
 
 TEST(Repeatability, SameBytesWithOneTwoThreeAndEightThreads) {
-  for (const char* example : {"configs/06-layers/ecosystem.xml", "configs/04-groups/ecosystem.xml", "configs/demo/ecosystem.xml"}) {
+  for (const char* example :
+       {"configs/06-layers/ecosystem.xml", "configs/04-groups/ecosystem.xml", "configs/demo/ecosystem.xml"}) {
     const Folder folder;
     std::string first;
     for (const char* threads : {"1", "2", "3", "8"}) {
       const std::string file = folder / (std::string(threads) + ".silva");
-      const Outcome outcome = silvasim({"run", source(example), "-o", file, "--probabilities", "--threads", threads, "-q"});
+      const Outcome outcome =
+          silvasim({"run", source(example), "-o", file, "--probabilities", "--threads", threads, "-q"});
       ASSERT_EQ(outcome.code, 0) << outcome.err;
       const std::string hash = base::sha256_of_file(file);
       if (first.empty()) first = hash;

@@ -24,25 +24,26 @@ class Distance final : public Evaluator {
 }  // namespace
 
 EvaluatorType distance_evaluator() {
-  return {config::evaluator_rule(
-              "DistanceEvaluator",
-              "Keeps crowns away from features, or near them: 1 where the distance from the crown's rim (the data field's "
-              "metres less the site's radius) lies between least and most. Lethal unless said otherwise.",
-              {{"least", config::ValueType::length, "least free distance between crown and feature", false, "", {}, 0},
-               {"most", config::ValueType::length, "greatest distance at which the plant still grows", false, "", {}, 0}},
-              {.property = false, .lethal_by_default = true},
-              "<DistanceEvaluator least=\"5 m\"><datafield>to_road</datafield></DistanceEvaluator>"),
-          FieldNeed::value, false, [](const EvaluatorMaking& making) -> std::unique_ptr<Evaluator> {
-            const config::Node& node = making.step.node;
-            constexpr double anywhere = 1e9;
-            const double least = node.has("least") ? node.number("least") : -anywhere;
-            const double most = node.has("most") ? node.number("most") : anywhere;
-            if (!node.has("least") && !node.has("most")) {
-              making.errors.push_back({node.place, "<DistanceEvaluator> needs least or most, like least=\"5 m\""});
-            }
-            if (least > most) making.errors.push_back({node.place, "<DistanceEvaluator> reversed: least is above most"});
-            return std::make_unique<Distance>(static_cast<float>(least), static_cast<float>(most));
-          }};
+  return {
+      config::evaluator_rule(
+          "DistanceEvaluator",
+          "Keeps crowns away from features, or near them: 1 where the distance from the crown's rim (the data field's "
+          "metres less the site's radius) lies between least and most. Lethal unless said otherwise.",
+          {{"least", config::ValueType::length, "least free distance between crown and feature", false, "", {}, 0},
+           {"most", config::ValueType::length, "greatest distance at which the plant still grows", false, "", {}, 0}},
+          {.property = false, .lethal_by_default = true},
+          "<DistanceEvaluator least=\"5 m\"><datafield>to_road</datafield></DistanceEvaluator>"),
+      FieldNeed::value, false, [](const EvaluatorMaking& making) -> std::unique_ptr<Evaluator> {
+        const config::Node& node = making.step.node;
+        constexpr double anywhere = 1e9;
+        const double least = node.has("least") ? node.number("least") : -anywhere;
+        const double most = node.has("most") ? node.number("most") : anywhere;
+        if (!node.has("least") && !node.has("most")) {
+          making.errors.push_back({node.place, "<DistanceEvaluator> needs least or most, like least=\"5 m\""});
+        }
+        if (least > most) making.errors.push_back({node.place, "<DistanceEvaluator> reversed: least is above most"});
+        return std::make_unique<Distance>(static_cast<float>(least), static_cast<float>(most));
+      }};
 }
 
 }  // namespace silvasim::evaluators

@@ -6,9 +6,11 @@ namespace silvasim::evaluators {
 EvaluatorType function_evaluator() {
   return {config::evaluator_rule(
               "FunctionEvaluator",
-              "The plant's response to the data field's value: its property may be a Gauss, Bezier, Table, Trapezoid, MinMax "
+              "The plant's response to the data field's value: its property may be a Gauss, Bezier, Table, Trapezoid, "
+              "MinMax "
               "or Constant.",
-              {}, {}, "<FunctionEvaluator><datafield>moisture</datafield><property>Moisture</property></FunctionEvaluator>"),
+              {}, {},
+              "<FunctionEvaluator><datafield>moisture</datafield><property>Moisture</property></FunctionEvaluator>"),
           FieldNeed::value, false, [](const EvaluatorMaking& making) {
             return respond(making.responses({"Gauss", "Bezier", "Table", "Trapezoid", "MinMax", "Constant"}));
           }};

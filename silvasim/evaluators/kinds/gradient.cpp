@@ -25,7 +25,8 @@ class Gradient final : public Evaluator {
 EvaluatorType gradient_evaluator() {
   return {config::evaluator_rule(
               "GradientEvaluator",
-              "Thins plants out along a data field: 1 up to the value `from`, falling in a straight line to 0 at `to`. Name "
+              "Thins plants out along a data field: 1 up to the value `from`, falling in a straight line to 0 at `to`. "
+              "Name "
               "plants inside to limit it to them.",
               {{"from", config::ValueType::number, "where the plants still stand in full", true, "", {}},
                {"to", config::ValueType::number, "where none is left", true, "", {}}},
@@ -34,7 +35,8 @@ EvaluatorType gradient_evaluator() {
           FieldNeed::value, false, [](const EvaluatorMaking& making) -> std::unique_ptr<Evaluator> {
             const double from = making.step.node.number("from"), to = making.step.node.number("to");
             if (from == to) {
-              making.errors.push_back({making.step.place, "<GradientEvaluator>: from and to are equal; a step is a MinMaxEvaluator"});
+              making.errors.push_back(
+                  {making.step.place, "<GradientEvaluator>: from and to are equal; a step is a MinMaxEvaluator"});
               return nullptr;
             }
             return std::make_unique<Gradient>(static_cast<float>(from), static_cast<float>(to));

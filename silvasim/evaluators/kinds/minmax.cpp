@@ -44,11 +44,17 @@ class MinMaxOptimum final : public Evaluator {
 
 EvaluatorType minmax_evaluator() {
   return {config::evaluator_rule(
-              "MinMaxEvaluator", "Whether the data field's value lies in the plant's MinMax property, ends included: 1 or 0.",
-              {{"optimum", config::ValueType::boolean,
-                "falls from 1 in the middle of the range to 0 at its ends, instead of 1 or 0", false, "false", {}}},
-              {}, "<MinMaxEvaluator lethal=\"true\" optimum=\"false\"><datafield>Waterfield</datafield>"
-                  "<property>MinMaxWater</property></MinMaxEvaluator>"),
+              "MinMaxEvaluator",
+              "Whether the data field's value lies in the plant's MinMax property, ends included: 1 or 0.",
+              {{"optimum",
+                config::ValueType::boolean,
+                "falls from 1 in the middle of the range to 0 at its ends, instead of 1 or 0",
+                false,
+                "false",
+                {}}},
+              {},
+              "<MinMaxEvaluator lethal=\"true\" optimum=\"false\"><datafield>Waterfield</datafield>"
+              "<property>MinMaxWater</property></MinMaxEvaluator>"),
           FieldNeed::value, false, [](const EvaluatorMaking& making) -> std::unique_ptr<Evaluator> {
             auto responses = making.responses({"MinMax"});
             if (!making.errors.empty()) return nullptr;

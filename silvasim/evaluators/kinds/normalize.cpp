@@ -7,8 +7,9 @@ namespace silvasim::evaluators {
 EvaluatorType normalize_evaluator() {
   config::ElementRule rule;
   rule.type = rule.tag = "NormalizeEvaluator";
-  rule.help = "Divides the probabilities reached so far by the largest of all sites and plants, so that it becomes 1. Stands "
-              "in the pipeline itself, not in a group.";
+  rule.help =
+      "Divides the probabilities reached so far by the largest of all sites and plants, so that it becomes 1. Stands "
+      "in the pipeline itself, not in a group.";
   rule.example = "<NormalizeEvaluator/>";
   return {std::move(rule), FieldNeed::none, true, nullptr};
 }

@@ -32,14 +32,15 @@ class Radius final : public Evaluator {
 }  // namespace
 
 EvaluatorType radius_evaluator() {
-  return {config::evaluator_rule(
-              "RadiusEvaluator",
-              "Whether the plant's model can be scaled to the site: 1 where site radius / model radius lies in the plant's "
-              "<scale>, else 0. Lethal unless said otherwise.",
-              {}, {.datafield = false, .property = false, .lethal_by_default = true}, "<RadiusEvaluator/>"),
-          FieldNeed::none, false, [](const EvaluatorMaking& making) -> std::unique_ptr<Evaluator> {
-            return std::make_unique<Radius>(making.layer);
-          }};
+  return {
+      config::evaluator_rule(
+          "RadiusEvaluator",
+          "Whether the plant's model can be scaled to the site: 1 where site radius / model radius lies in the plant's "
+          "<scale>, else 0. Lethal unless said otherwise.",
+          {}, {.datafield = false, .property = false, .lethal_by_default = true}, "<RadiusEvaluator/>"),
+      FieldNeed::none, false, [](const EvaluatorMaking& making) -> std::unique_ptr<Evaluator> {
+        return std::make_unique<Radius>(making.layer);
+      }};
 }
 
 }  // namespace silvasim::evaluators

@@ -30,7 +30,8 @@ std::unique_ptr<Response> make(const config::Node& node, std::vector<base::Diagn
     const CurvePoint a = controls[k], b = controls[k + 1], c = controls[k + 2], d = controls[k + 3];
     for (int i = 1; i < chords; ++i) {
       const double t = static_cast<double>(i) / chords;
-      points.push_back({static_cast<float>(cubic(a.x, b.x, c.x, d.x, t)), static_cast<float>(cubic(a.y, b.y, c.y, d.y, t))});
+      points.push_back(
+          {static_cast<float>(cubic(a.x, b.x, c.x, d.x, t)), static_cast<float>(cubic(a.y, b.y, c.y, d.y, t))});
     }
     points.push_back(d);
   }
@@ -40,11 +41,17 @@ std::unique_ptr<Response> make(const config::Node& node, std::vector<base::Diagn
 }  // namespace
 
 PropertyType bezier_property() {
-  return {{"Bezier", "Bezier",
-           "A smooth curve of cubic Bézier pieces: control points of which every third lies on the curve; x must not fall.",
-           {}, {{"TablePoint", 4, -1}}, config::ValueType::none, true,
-           "<Bezier><point x=\"0\" y=\"0\"/><point x=\"0.3\" y=\"0\"/><point x=\"0.7\" y=\"1\"/><point x=\"1\" y=\"1\"/></Bezier>"},
-          make};
+  return {
+      {"Bezier",
+       "Bezier",
+       "A smooth curve of cubic Bézier pieces: control points of which every third lies on the curve; x must not fall.",
+       {},
+       {{"TablePoint", 4, -1}},
+       config::ValueType::none,
+       true,
+       "<Bezier><point x=\"0\" y=\"0\"/><point x=\"0.3\" y=\"0\"/><point x=\"0.7\" y=\"1\"/><point x=\"1\" "
+       "y=\"1\"/></Bezier>"},
+      make};
 }
 
 }  // namespace silvasim::evaluators

@@ -45,9 +45,13 @@ std::unique_ptr<Response> make(const config::Node& node, std::vector<base::Diagn
 }  // namespace
 
 PropertyType classes_property() {
-  return {{"Classes", "Classes", "A probability for each class of a data field with kind=\"class\".",
+  return {{"Classes",
+           "Classes",
+           "A probability for each class of a data field with kind=\"class\".",
            {{"otherwise", config::ValueType::fraction, "the probability in all other classes", false, "0", {}, 0, 1}},
-           {{"ClassValue", 1, -1}}, config::ValueType::none, true,
+           {{"ClassValue", 1, -1}},
+           config::ValueType::none,
+           true,
            "<Classes otherwise=\"0\"><class code=\"5\" value=\"1\"/><class code=\"3\" value=\"0.4\"/></Classes>"},
           make};
 }

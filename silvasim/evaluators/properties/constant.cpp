@@ -23,8 +23,13 @@ std::unique_ptr<Response> make(const config::Node& node, std::vector<base::Diagn
 }  // namespace
 
 PropertyType constant_property() {
-  return {{"Constant", "Constant", "The same answer everywhere.",
-           {{"value", config::ValueType::fraction, "the probability", true, "", {}, 0, 1}}, {}, config::ValueType::none, true,
+  return {{"Constant",
+           "Constant",
+           "The same answer everywhere.",
+           {{"value", config::ValueType::fraction, "the probability", true, "", {}, 0, 1}},
+           {},
+           config::ValueType::none,
+           true,
            "<Constant value=\"0.8\"/>"},
           make};
 }

@@ -29,10 +29,15 @@ std::unique_ptr<Response> make(const config::Node& node, std::vector<base::Diagn
 }  // namespace
 
 PropertyType gauss_property() {
-  return {{"Gauss", "Gauss", "A bell curve, 1 at the mean: exp(-(x - mean)² / (2 deviation²)).",
+  return {{"Gauss",
+           "Gauss",
+           "A bell curve, 1 at the mean: exp(-(x - mean)² / (2 deviation²)).",
            {{"mean", config::ValueType::number, "where the plant does best", true, "", {}},
-            {"deviation", config::ValueType::number, "standard deviation, above 0", true, "", {}, 1e-9}}, {},
-           config::ValueType::none, true, "<Gauss mean=\"0.6\" deviation=\"0.2\"/>"},
+            {"deviation", config::ValueType::number, "standard deviation, above 0", true, "", {}, 1e-9}},
+           {},
+           config::ValueType::none,
+           true,
+           "<Gauss mean=\"0.6\" deviation=\"0.2\"/>"},
           make};
 }
 

@@ -27,11 +27,15 @@ std::unique_ptr<Response> make(const config::Node& node, std::vector<base::Diagn
 }  // namespace
 
 PropertyType minmax_property() {
-  return {{"MinMax", "MinMax",
+  return {{"MinMax",
+           "MinMax",
            "A range in which the plant grows: 1 from min to max, both included, 0 outside. A MinMaxEvaluator with "
            "optimum=\"true\" makes it a tent with its top in the middle.",
            {{"min", config::ValueType::number, "least value", true, "", {}},
-            {"max", config::ValueType::number, "greatest value", true, "", {}}}, {}, config::ValueType::none, true,
+            {"max", config::ValueType::number, "greatest value", true, "", {}}},
+           {},
+           config::ValueType::none,
+           true,
            "<MinMax min=\"0.2\" max=\"0.5\"/>"},
           make};
 }

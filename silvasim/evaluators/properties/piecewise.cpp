@@ -34,7 +34,8 @@ SampledCurve::SampledCurve(std::vector<CurvePoint> points) : points_(std::move(p
   first_.resize(buckets + 1);
   for (std::size_t b = 0; b <= buckets; ++b) {
     const float x = start_ + width * (static_cast<float>(b) / static_cast<float>(buckets));
-    const auto after = std::upper_bound(points_.begin(), points_.end(), x, [](float v, const CurvePoint& p) { return v < p.x; });
+    const auto after =
+        std::upper_bound(points_.begin(), points_.end(), x, [](float v, const CurvePoint& p) { return v < p.x; });
     first_[b] = std::max(0, static_cast<int>(after - points_.begin()) - 1);
   }
 }

@@ -30,8 +30,13 @@ std::vector<CurvePoint> curve_points(const config::Node& node, std::vector<base:
 }
 
 PropertyType table_property() {
-  return {{"Table", "Table", "A piecewise linear response through points, constant outside; two points of equal x make a step.",
-           {}, {{"TablePoint", 1, -1}}, config::ValueType::none, true,
+  return {{"Table",
+           "Table",
+           "A piecewise linear response through points, constant outside; two points of equal x make a step.",
+           {},
+           {{"TablePoint", 1, -1}},
+           config::ValueType::none,
+           true,
            "<Table><point x=\"300\" y=\"0\"/><point x=\"500\" y=\"1\"/><point x=\"1200\" y=\"0.2\"/></Table>"},
           make};
 }

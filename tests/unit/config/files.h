@@ -17,7 +17,8 @@ class Files {
  public:
   Files() {
     static int serial = 0;
-    folder_ = std::filesystem::temp_directory_path() / ("silva-config-" + std::to_string(getpid()) + "-" + std::to_string(serial++));
+    folder_ = std::filesystem::temp_directory_path() /
+              ("silva-config-" + std::to_string(getpid()) + "-" + std::to_string(serial++));
     std::filesystem::create_directories(folder_);
     add("water.png", "");  // only its being there is checked before the fields are loaded
   }

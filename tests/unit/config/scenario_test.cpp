@@ -8,13 +8,15 @@ namespace {
 
 const char* const paper_plants =
     "<plants>\n"
-    "<plant><model> ./model/oak.obj </model><property name=\"MinMaxWater\"><MinMax min=\"0.2\" max=\"0.5\"/></property></plant>\n"
+    "<plant><model> ./model/oak.obj </model><property name=\"MinMaxWater\"><MinMax min=\"0.2\" "
+    "max=\"0.5\"/></property></plant>\n"
     "</plants>\n";
 const char* const paper_ecosystem =
     "<ecosystem>\n"
     "<scene><size width=\"1 km\" height=\"1 km\"/></scene>\n"
     "<datafield name=\"Waterfield\">water.png</datafield>\n"
-    "<MinMaxEvaluator lethal=\"true\" optimum=\"false\"><datafield>Waterfield</datafield><property>MinMaxWater</property>"
+    "<MinMaxEvaluator lethal=\"true\" "
+    "optimum=\"false\"><datafield>Waterfield</datafield><property>MinMaxWater</property>"
     "</MinMaxEvaluator>\n"
     "</ecosystem>\n";
 
@@ -45,7 +47,8 @@ struct Wrong {
 std::string ecosystem(const std::string& inside) {
   return "<ecosystem>\n<datafield name=\"water\">water.png</datafield>\n" + inside + "\n</ecosystem>";
 }
-std::string evaluator(const std::string& text = "<FunctionEvaluator><datafield>water</datafield><property>W</property></FunctionEvaluator>") {
+std::string evaluator(const std::string& text =
+                          "<FunctionEvaluator><datafield>water</datafield><property>W</property></FunctionEvaluator>") {
   return "<pipeline>" + text + "</pipeline>";
 }
 std::string plants(const std::string& inside = "<property name=\"W\"><MinMax min=\"0\" max=\"1\"/></property>") {
@@ -61,40 +64,56 @@ std::string errors(const std::string& ecosystem_xml, const std::string& plants_x
 TEST(Scenario, ARightOneHasNoErrors) { EXPECT_EQ(errors(ecosystem(evaluator()), plants()), ""); }
 
 TEST(Scenario, ErrorsNameTheThingAndWhatWouldBeRight) {
-  EXPECT_EQ(errors(ecosystem(evaluator("<FunctionEvaluator><datafield>watr</datafield><property>W</property></FunctionEvaluator>")), plants()),
-            "ecosystem.xml:3:30: error: <FunctionEvaluator> uses the unknown data field \"watr\"; did you mean \"water\"?\n");
+  EXPECT_EQ(
+      errors(ecosystem(
+                 evaluator("<FunctionEvaluator><datafield>watr</datafield><property>W</property></FunctionEvaluator>")),
+             plants()),
+      "ecosystem.xml:3:30: error: <FunctionEvaluator> uses the unknown data field \"watr\"; did you mean \"water\"?\n");
   EXPECT_EQ(errors(ecosystem(evaluator()), plants("<property name=\"V\"><MinMax min=\"0\" max=\"1\"/></property>")),
-            "plants.xml:2:1: error: plant \"oak\" has no property \"W\", which <FunctionEvaluator> at ecosystem.xml:3 asks for\n");
+            "plants.xml:2:1: error: plant \"oak\" has no property \"W\", which <FunctionEvaluator> at ecosystem.xml:3 "
+            "asks for\n");
   EXPECT_EQ(errors(ecosystem(evaluator()), plants("<property name=\"W\"><MinMax min=\"1\" max=\"0\"/></property>")),
             "plants.xml:2:38: error: <MinMax> reversed: min is above max\n");
-  EXPECT_EQ(errors(ecosystem(evaluator()), plants("<property name=\"W\"><Classes><class code=\"1\" value=\"1\"/></Classes></property>")),
-            "plants.xml:2:38: error: property \"W\" of \"oak\" is a <Classes>, but <FunctionEvaluator> at ecosystem.xml:3 takes <Gauss>, "
+  EXPECT_EQ(errors(ecosystem(evaluator()),
+                   plants("<property name=\"W\"><Classes><class code=\"1\" value=\"1\"/></Classes></property>")),
+            "plants.xml:2:38: error: property \"W\" of \"oak\" is a <Classes>, but <FunctionEvaluator> at "
+            "ecosystem.xml:3 takes <Gauss>, "
             "<Bezier>, <Table>, <Trapezoid>, <MinMax>, <Constant>\n");
   EXPECT_EQ(errors(ecosystem("<datafield name=\"water\">water.png</datafield>" + evaluator()), plants()),
             "ecosystem.xml:3:1: error: data field \"water\" stands twice; the first is at ecosystem.xml:2\n");
   EXPECT_EQ(errors(ecosystem("<datafield name=\"soil\">soil.tif</datafield>" + evaluator()), plants()),
             "ecosystem.xml:3:1: error: data field \"soil\": there is no file \"soil.tif\"\n");
-  EXPECT_EQ(errors(ecosystem("<tiles side=\"50 m\"><radii least=\"2 m\" most=\"8 m\"/></tiles>" + evaluator()), plants()),
-            "ecosystem.xml:3:1: error: <tiles>: side 50 m is not larger than 8 times the largest radius, 64 m; enlarge side or lessen "
-            "radii\n");
+  EXPECT_EQ(
+      errors(ecosystem("<tiles side=\"50 m\"><radii least=\"2 m\" most=\"8 m\"/></tiles>" + evaluator()), plants()),
+      "ecosystem.xml:3:1: error: <tiles>: side 50 m is not larger than 8 times the largest radius, 64 m; enlarge side "
+      "or lessen "
+      "radii\n");
   EXPECT_EQ(errors(ecosystem("<tiles><radii least=\"8 m\" most=\"2 m\"/></tiles>" + evaluator()), plants()),
             "ecosystem.xml:3:8: error: <radii> reversed: least is above most\n");
   EXPECT_EQ(errors(ecosystem("<derivedfield name=\"slope\" measure=\"slope\"/>" + evaluator()), plants()),
-            "ecosystem.xml:3:1: error: derived field \"slope\" needs a terrain: a <datafield terrain=\"true\">, or of=\"...\"\n");
-  EXPECT_EQ(errors(ecosystem("<neighbourhoods><influence from=\"ok\" on=\"*\" value=\"-0.5\"/></neighbourhoods>" + evaluator()), plants()),
+            "ecosystem.xml:3:1: error: derived field \"slope\" needs a terrain: a <datafield terrain=\"true\">, or "
+            "of=\"...\"\n");
+  EXPECT_EQ(errors(ecosystem("<neighbourhoods><influence from=\"ok\" on=\"*\" value=\"-0.5\"/></neighbourhoods>" +
+                             evaluator()),
+                   plants()),
             "ecosystem.xml:3:17: error: <influence> names the unknown plant \"ok\"; did you mean \"oak\"?\n");
-  EXPECT_EQ(errors(ecosystem(evaluator("<RadiusEvaluator/>") + "<RadiusEvaluator/>"), plants()),
-            "ecosystem.xml:3:40: error: <RadiusEvaluator> stands beside the <pipeline> at ecosystem.xml:3; move it inside\n");
-  EXPECT_EQ(errors(ecosystem(evaluator("<ClassEvaluator><datafield>water</datafield><property>W</property></ClassEvaluator>")),
-                   plants("<property name=\"W\"><Classes><class code=\"1\" value=\"1\"/></Classes></property>")),
-            "ecosystem.xml:3:11: error: <ClassEvaluator> needs classes, but data field \"water\" is a quantity; say kind=\"class\" there, "
-            "or use a <FunctionEvaluator>\n");
+  EXPECT_EQ(
+      errors(ecosystem(evaluator("<RadiusEvaluator/>") + "<RadiusEvaluator/>"), plants()),
+      "ecosystem.xml:3:40: error: <RadiusEvaluator> stands beside the <pipeline> at ecosystem.xml:3; move it inside\n");
+  EXPECT_EQ(
+      errors(
+          ecosystem(evaluator("<ClassEvaluator><datafield>water</datafield><property>W</property></ClassEvaluator>")),
+          plants("<property name=\"W\"><Classes><class code=\"1\" value=\"1\"/></Classes></property>")),
+      "ecosystem.xml:3:11: error: <ClassEvaluator> needs classes, but data field \"water\" is a quantity; say "
+      "kind=\"class\" there, "
+      "or use a <FunctionEvaluator>\n");
   EXPECT_EQ(errors(ecosystem(evaluator("<length><NormalizeEvaluator/></length>")), plants()),
             "ecosystem.xml:3:19: error: <NormalizeEvaluator> must stand in the pipeline itself, not in a group\n");
   EXPECT_EQ(errors(ecosystem(evaluator()), "<plants><plant name=\"oak\" layer=\"shrub\"/></plants>"),
             "plants.xml:1:27: error: plant \"oak\" grows in the unknown layer \"shrub\"\n"
             "ecosystem.xml:1:1: error: no plant grows in layer \"plants\"\n");
-  EXPECT_EQ(errors(ecosystem(""), plants()), "ecosystem.xml:1:1: error: layer \"plants\" has no evaluators; <pipeline> needs one at least\n");
+  EXPECT_EQ(errors(ecosystem(""), plants()),
+            "ecosystem.xml:1:1: error: layer \"plants\" has no evaluators; <pipeline> needs one at least\n");
 }
 
 TEST(Scenario, AllErrorsOfBothFilesAreShownTogether) {
@@ -113,15 +132,19 @@ TEST(Scenario, IncludesAreSplicedAndCyclesRefused) {
   EXPECT_EQ(files.errors(), "");
   EXPECT_EQ(files.load().files.size(), 3u);
   files.add("more.xml", "<ecosystem>\n<include>ecosystem.xml</include></ecosystem>");
-  EXPECT_NE(files.errors().find("more.xml:2:1: error: <include> of \"ecosystem.xml\", which is being read already"), std::string::npos);
+  EXPECT_NE(files.errors().find("more.xml:2:1: error: <include> of \"ecosystem.xml\", which is being read already"),
+            std::string::npos);
 }
 
 TEST(Scenario, NamedInfluencesBeatStars) {
   Files files;
-  files.add("ecosystem.xml", ecosystem("<neighbourhoods><influence from=\"*\" on=\"*\" value=\"-0.1\"/><influence from=\"oak\" on=\"*\" "
-                                       "value=\"-0.2\"/><influence from=\"oak\" on=\"elm\" value=\"-0.3\"/></neighbourhoods>" +
-                                       evaluator("<RadiusEvaluator/>")))
-      .add("plants.xml", "<plants><plant name=\"oak\"/><plant name=\"elm\"><influence on=\"elm\" value=\"0.5\"/></plant></plants>");
+  files
+      .add("ecosystem.xml",
+           ecosystem("<neighbourhoods><influence from=\"*\" on=\"*\" value=\"-0.1\"/><influence from=\"oak\" on=\"*\" "
+                     "value=\"-0.2\"/><influence from=\"oak\" on=\"elm\" value=\"-0.3\"/></neighbourhoods>" +
+                     evaluator("<RadiusEvaluator/>")))
+      .add("plants.xml",
+           "<plants><plant name=\"oak\"/><plant name=\"elm\"><influence on=\"elm\" value=\"0.5\"/></plant></plants>");
   EXPECT_EQ(files.errors(), "");
   EXPECT_EQ(files.load().layers[0].neighbourhoods.influence, (std::vector<double>{-0.2, -0.3, -0.1, 0.5}));
 }

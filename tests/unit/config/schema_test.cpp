@@ -12,7 +12,8 @@ namespace {
 TEST(Schema, TakesThePapersFragments) {
   const std::string schema = xml_schema(evaluators::dialect());
   const auto found = check_against_schema(
-      "<ecosystem><datafield name=\"Waterfield\">water.png</datafield><MinMaxEvaluator lethal=\"true\" optimum=\"false\">"
+      "<ecosystem><datafield name=\"Waterfield\">water.png</datafield><MinMaxEvaluator lethal=\"true\" "
+      "optimum=\"false\">"
       "<datafield>Waterfield</datafield><property>MinMaxWater</property></MinMaxEvaluator></ecosystem>",
       "f.xml", schema);
   for (const auto& d : found) ADD_FAILURE() << to_string(d);
@@ -20,8 +21,9 @@ TEST(Schema, TakesThePapersFragments) {
 
 TEST(Schema, RefusesUnknownElementsAttributesAndWords) {
   const std::string schema = xml_schema(evaluators::dialect());
-  for (const char* text : {"<ecosystem><foo/></ecosystem>", "<ecosystem foo=\"1\"/>", "<ecosystem><corners solver=\"best\"/></ecosystem>",
-                           "<ecosystem><tiles side=\"wide\"/></ecosystem>", "<ecosystem><datafield>x</datafield></ecosystem>"}) {
+  for (const char* text :
+       {"<ecosystem><foo/></ecosystem>", "<ecosystem foo=\"1\"/>", "<ecosystem><corners solver=\"best\"/></ecosystem>",
+        "<ecosystem><tiles side=\"wide\"/></ecosystem>", "<ecosystem><datafield>x</datafield></ecosystem>"}) {
     EXPECT_FALSE(check_against_schema(text, "f.xml", schema).empty()) << text;
   }
 }
@@ -33,11 +35,13 @@ TEST(Schema, TakesEveryExampleOfTheHelp) {
   for (const ElementRule& rule : dialect.rules) {
     if (rule.example.empty() || rule.example.find("...") != std::string::npos) continue;
     std::string schema = xml_schema(dialect);
-    const std::string root = "  <xs:element name=\"ecosystem\" type=\"Ecosystem\"/>\n  <xs:element name=\"plants\" type=\"Plants\"/>\n";
+    const std::string root =
+        "  <xs:element name=\"ecosystem\" type=\"Ecosystem\"/>\n  <xs:element name=\"plants\" type=\"Plants\"/>\n";
     const std::size_t at = schema.find(root);
     ASSERT_NE(at, std::string::npos);
     schema.replace(at, root.size(), "  <xs:element name=\"" + rule.tag + "\" type=\"" + rule.type + "\"/>\n");
-    for (const auto& d : check_against_schema(rule.example, rule.type, schema)) ADD_FAILURE() << to_string(d) << "\n" << rule.example;
+    for (const auto& d : check_against_schema(rule.example, rule.type, schema))
+      ADD_FAILURE() << to_string(d) << "\n" << rule.example;
     ++examples;
   }
   EXPECT_GT(examples, 30);

@@ -25,7 +25,8 @@ TEST(Xml, SaysWhatIsWrongAndWhere) {
       {"<ecosystem>", "f.xml:1: error: an element is not closed, or closed by another name"},
       {"<ecosystem/>\n<ecosystem/>", "f.xml:2: error: a second root element; XML has one"},
       {"<plants/>", "f.xml:1:1: error: the root element is <plants>; expected <ecosystem>"},
-      {"<ecosystem>\n  <scnee/>\n</ecosystem>", "f.xml:2:3: error: <scnee> is unknown inside <ecosystem>; did you mean \"scene\"?"},
+      {"<ecosystem>\n  <scnee/>\n</ecosystem>",
+       "f.xml:2:3: error: <scnee> is unknown inside <ecosystem>; did you mean \"scene\"?"},
       {"<ecosystem sed=\"1\"/>", "f.xml:1:12: error: <ecosystem> has no attribute \"sed\"; did you mean \"seed\"?"},
       {"<ecosystem seed=\"x\"/>",
        "f.xml:1:12: error: <ecosystem> seed: \"x\" is no number; expected a whole number, 0 to 9007199254740991"},
@@ -42,7 +43,9 @@ TEST(Xml, SaysWhatIsWrongAndWhere) {
   };
   for (const auto& [text, expected] : cases) EXPECT_EQ(first_error(text), expected) << text;
   EXPECT_EQ(first_error(std::string("<ecosystem\0/>", 13)), "f.xml:1:1: error: not UTF-8 text; save the file as UTF-8");
-  EXPECT_EQ(first_error("\xEF\xBB\xBF<?xml version=\"1.0\" encoding=\"utf-8\"?><ecosystem name=\"Träger &amp; &#x263A;\"/>"), "");
+  EXPECT_EQ(
+      first_error("\xEF\xBB\xBF<?xml version=\"1.0\" encoding=\"utf-8\"?><ecosystem name=\"Träger &amp; &#x263A;\"/>"),
+      "");
 }
 
 TEST(Xml, CommentsAndCharacterDataHoldAnyCharacters) {
@@ -62,7 +65,8 @@ TEST(Xml, AHugeAttributeEndsInAnError) {
 
 TEST(Xml, SecondElementOnALineHasItsOwnColumn) {
   std::vector<base::Diagnostic> errors;
-  parse_xml("<ecosystem><corners solver=\"a\"/><corners solver=\"b\"/></ecosystem>", "f", evaluators::dialect(), "Ecosystem", errors);
+  parse_xml("<ecosystem><corners solver=\"a\"/><corners solver=\"b\"/></ecosystem>", "f", evaluators::dialect(),
+            "Ecosystem", errors);
   ASSERT_EQ(errors.size(), 3u);
   EXPECT_EQ(errors[0].place.column, 21);
   EXPECT_EQ(errors[1].place.column, 42);

@@ -13,18 +13,22 @@ namespace silvasim::evaluators {
 namespace {
 
 const char* const plants =
-    "<plant name=\"one\"><property name=\"A\"><Gauss mean=\"0.4\" deviation=\"0.2\"/></property><property name=\"B\"><Trapezoid a=\"0\" b=\"0.2\" "
+    "<plant name=\"one\"><property name=\"A\"><Gauss mean=\"0.4\" deviation=\"0.2\"/></property><property "
+    "name=\"B\"><Trapezoid a=\"0\" b=\"0.2\" "
     "c=\"0.6\" d=\"1\"/></property></plant>"
-    "<plant name=\"two\"><property name=\"A\"><Bezier><point x=\"0\" y=\"0\"/><point x=\"0.4\" y=\"0\"/><point x=\"0.6\" y=\"1\"/><point x=\"1\" "
+    "<plant name=\"two\"><property name=\"A\"><Bezier><point x=\"0\" y=\"0\"/><point x=\"0.4\" y=\"0\"/><point "
+    "x=\"0.6\" y=\"1\"/><point x=\"1\" "
     "y=\"1\"/></Bezier></property><property name=\"B\"><MinMax min=\"0.1\" max=\"0.8\"/></property></plant>"
-    "<plant name=\"three\"><scale least=\"0.8\" most=\"1.4\"/><property name=\"A\"><Table><point x=\"0\" y=\"1\"/><point x=\"1\" "
+    "<plant name=\"three\"><scale least=\"0.8\" most=\"1.4\"/><property name=\"A\"><Table><point x=\"0\" "
+    "y=\"1\"/><point x=\"1\" "
     "y=\"0\"/></Table></property><property name=\"B\"><Constant value=\"0.7\"/></property></plant>";
 
 double wave(double x, double y) { return 0.5 + 0.5 * std::sin(x / 37) * std::cos(y / 53); }
 double holed(double x, double y) { return x > 100 && x < 140 && y > 200 ? NAN : 0.5 + 0.5 * std::cos(x / 71 + y / 29); }
 
 std::string function(const std::string& field, const std::string& property, const std::string& attributes = "") {
-  return "<FunctionEvaluator " + attributes + "><datafield>" + field + "</datafield><property>" + property + "</property></FunctionEvaluator>";
+  return "<FunctionEvaluator " + attributes + "><datafield>" + field + "</datafield><property>" + property +
+         "</property></FunctionEvaluator>";
 }
 
 // Pipelines of every form, for the tests that must hold for all.
@@ -33,10 +37,13 @@ std::vector<std::string> pipelines() {
   return {
       "<pipeline>" + a + b + "</pipeline>",
       "<pipeline combine=\"length\">" + a + lethal + "</pipeline>",
-      "<pipeline><RadiusEvaluator/>" + a + "<NormalizeEvaluator/><length>" + b + "<product>" + a + lethal + "</product></length></pipeline>",
-      "<pipeline combine=\"length\">" + a + "<NormalizeEvaluator/>" + b + "<ConstantEvaluator value=\"0.3\"><plant>two</plant></ConstantEvaluator>"
+      "<pipeline><RadiusEvaluator/>" + a + "<NormalizeEvaluator/><length>" + b + "<product>" + a + lethal +
+          "</product></length></pipeline>",
+      "<pipeline combine=\"length\">" + a + "<NormalizeEvaluator/>" + b +
+          "<ConstantEvaluator value=\"0.3\"><plant>two</plant></ConstantEvaluator>"
           "<NormalizeEvaluator/></pipeline>",
-      "<pipeline>" + lethal + "<length>" + a + "<length>" + b + "<ConstantEvaluator value=\"0\"/></length></length><NormalizeEvaluator/></pipeline>",
+      "<pipeline>" + lethal + "<length>" + a + "<length>" + b +
+          "<ConstantEvaluator value=\"0\"/></length></length><NormalizeEvaluator/></pipeline>",
   };
 }
 
@@ -48,14 +55,16 @@ TEST(Network, ProbabilitiesStayWithinBounds) {
     const Network network(scene.scenario, 0);
     const Suitability result = evaluate_sites(network, scene.ground());
     ASSERT_GT(result.probability.size(), 1000u);
-    for (const float p : result.probability) ASSERT_TRUE(p == excluded || (p >= 0 && p <= 1)) << p << " in " << pipeline;
+    for (const float p : result.probability)
+      ASSERT_TRUE(p == excluded || (p >= 0 && p <= 1)) << p << " in " << pipeline;
   }
 }
 
 // B1: the maximum is exactly 1 after a normalization.
 TEST(Network, NormalizeMakesTheLargestExactlyOne) {
-  const Scene scene = make_scene(tiles + "<pipeline><ConstantEvaluator value=\"0.3\"/>" + function("a", "A") + "<NormalizeEvaluator/></pipeline>", plants,
-                                 {wave, holed});
+  const Scene scene = make_scene(
+      tiles + "<pipeline><ConstantEvaluator value=\"0.3\"/>" + function("a", "A") + "<NormalizeEvaluator/></pipeline>",
+      plants, {wave, holed});
   const Suitability result = evaluate_sites(Network(scene.scenario, 0), scene.ground());
   ASSERT_EQ(result.maxima.size(), 1u);
   EXPECT_LE(result.maxima[0], 0.3f);
@@ -64,7 +73,8 @@ TEST(Network, NormalizeMakesTheLargestExactlyOne) {
 
 TEST(Network, NormalizeLeavesAllZeroZero) {
   const Scene scene =
-      make_scene(tiles + "<pipeline><ConstantEvaluator value=\"0\" floor=\"0\"/><NormalizeEvaluator/></pipeline>", plants, {wave, holed});
+      make_scene(tiles + "<pipeline><ConstantEvaluator value=\"0\" floor=\"0\"/><NormalizeEvaluator/></pipeline>",
+                 plants, {wave, holed});
   const Suitability result = evaluate_sites(Network(scene.scenario, 0), scene.ground());
   for (const float p : result.probability) ASSERT_TRUE(p == 0 || p == excluded);
 }

@@ -27,7 +27,8 @@ std::vector<float> respond_to(const std::string& element, const std::vector<floa
 using Floats = std::vector<float>;
 
 TEST(Properties, MinMaxIncludesItsEnds) {
-  EXPECT_EQ(respond_to("<MinMax min=\"0.25\" max=\"0.5\"/>", {0.2499f, 0.25f, 0.3f, 0.5f, 0.5001f}), (Floats{0, 1, 1, 1, 0}));
+  EXPECT_EQ(respond_to("<MinMax min=\"0.25\" max=\"0.5\"/>", {0.2499f, 0.25f, 0.3f, 0.5f, 0.5001f}),
+            (Floats{0, 1, 1, 1, 0}));
 }
 
 TEST(Properties, TrapezoidIsExactAtItsCorners) {
@@ -40,7 +41,8 @@ TEST(Properties, TrapezoidWithUprightSides) {
 }
 
 TEST(Properties, TableIsConstantOutsideAndStepsWhereXRepeats) {
-  EXPECT_EQ(respond_to("<Table><point x=\"0\" y=\"0.5\"/><point x=\"1\" y=\"1\"/><point x=\"1\" y=\"0\"/><point x=\"3\" y=\"0.5\"/></Table>",
+  EXPECT_EQ(respond_to("<Table><point x=\"0\" y=\"0.5\"/><point x=\"1\" y=\"1\"/><point x=\"1\" y=\"0\"/><point "
+                       "x=\"3\" y=\"0.5\"/></Table>",
                        {-5, 0, 0.5f, 1, 2, 3, 9}),
             (Floats{0.5f, 0.5f, 0.75f, 0, 0.25f, 0.5f, 0.5f}));
 }
@@ -59,7 +61,9 @@ TEST(Properties, BezierOnTheDiagonalIsTheIdentity) {
   Floats x;
   for (int i = 0; i <= 1000; ++i) x.push_back(static_cast<float>(i) / 1000);
   const Floats y = respond_to(
-      "<Bezier><point x=\"0\" y=\"0\"/><point x=\"0.25\" y=\"0.25\"/><point x=\"0.9\" y=\"0.9\"/><point x=\"1\" y=\"1\"/></Bezier>", x);
+      "<Bezier><point x=\"0\" y=\"0\"/><point x=\"0.25\" y=\"0.25\"/><point x=\"0.9\" y=\"0.9\"/><point x=\"1\" "
+      "y=\"1\"/></Bezier>",
+      x);
   for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(y[i], x[i], 1e-6);
 }
 
@@ -73,16 +77,21 @@ TEST(Properties, BezierAgreesWithItsCurve) {
   Floats x;
   for (int i = 0; i <= 997; ++i) x.push_back(static_cast<float>(i) / 997);
   const Floats y = respond_to(
-      "<Bezier><point x=\"0\" y=\"0\"/><point x=\"0.1\" y=\"1\"/><point x=\"0.2\" y=\"0\"/><point x=\"1\" y=\"0.7\"/></Bezier>", x);
+      "<Bezier><point x=\"0\" y=\"0\"/><point x=\"0.1\" y=\"1\"/><point x=\"0.2\" y=\"0\"/><point x=\"1\" "
+      "y=\"0.7\"/></Bezier>",
+      x);
   for (std::size_t i = 0; i < x.size(); ++i) {
     double low = 0, high = 1;
-    for (int k = 0; k < 60; ++k) (cubic(px, (low + high) / 2) < static_cast<double>(x[i]) ? low : high) = (low + high) / 2;
+    for (int k = 0; k < 60; ++k)
+      (cubic(px, (low + high) / 2) < static_cast<double>(x[i]) ? low : high) = (low + high) / 2;
     EXPECT_NEAR(y[i], cubic(py, low), 2e-4) << x[i];
   }
 }
 
 TEST(Properties, ClassesAnswerByCode) {
-  EXPECT_EQ(respond_to("<Classes otherwise=\"0.1\"><class code=\"5\" value=\"1\"/><class code=\"3\" value=\"0.4\"/></Classes>", {5, 3, 4, 0}),
+  EXPECT_EQ(respond_to(
+                "<Classes otherwise=\"0.1\"><class code=\"5\" value=\"1\"/><class code=\"3\" value=\"0.4\"/></Classes>",
+                {5, 3, 4, 0}),
             (Floats{1, 0.4f, 0.1f, 0.1f}));
 }
 

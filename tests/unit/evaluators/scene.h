@@ -22,7 +22,8 @@ inline fields::Raster raster(int columns, int rows, const std::function<double(d
   r.north = rows * cell;
   r.cell_width = r.cell_height = cell;
   for (int j = 0; j < rows; ++j) {
-    for (int i = 0; i < columns; ++i) r.values.push_back(static_cast<float>(f((i + 0.5) * cell, (rows - j - 0.5) * cell)));
+    for (int i = 0; i < columns; ++i)
+      r.values.push_back(static_cast<float>(f((i + 0.5) * cell, (rows - j - 0.5) * cell)));
   }
   return r;
 }
@@ -35,20 +36,22 @@ struct Scene {
   tiles::Tiling tiling;
   std::vector<std::uint64_t> offsets;
 
-  Ground ground() const { return {tile_set, tiling, {fields.frame.extent.west, fields.frame.extent.north}, offsets, fields}; }
+  Ground ground() const {
+    return {tile_set, tiling, {fields.frame.extent.west, fields.frame.extent.north}, offsets, fields};
+  }
 };
 
 using FieldFunctions = std::vector<std::function<double(double, double)>>;
 
 // `inside`: what stands in <ecosystem> after the data fields a, b, c, ... which hold the functions over side x side metres.
 // `class` fields are declared by the caller's attributes, one string a field ("kind=\"class\"").
-inline Scene make_scene(const std::string& inside, const std::string& plants, const FieldFunctions& functions, double side = 400,
-                        const std::vector<std::string>& attributes = {}) {
+inline Scene make_scene(const std::string& inside, const std::string& plants, const FieldFunctions& functions,
+                        double side = 400, const std::vector<std::string>& attributes = {}) {
   config::Files files;
   std::string xml = "<ecosystem seed=\"3\">";
   for (std::size_t k = 0; k < functions.size(); ++k) {
-    xml += "<datafield name=\"" + std::string(1, static_cast<char>('a' + k)) + "\" " + (k < attributes.size() ? attributes[k] : "") +
-           ">water.png</datafield>";
+    xml += "<datafield name=\"" + std::string(1, static_cast<char>('a' + k)) + "\" " +
+           (k < attributes.size() ? attributes[k] : "") + ">water.png</datafield>";
   }
   files.add("ecosystem.xml", xml + inside + "</ecosystem>").add("plants.xml", "<plants>" + plants + "</plants>");
   Scene scene{files.load(), {}, {}, {}, {}};

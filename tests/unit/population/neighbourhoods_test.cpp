@@ -25,13 +25,15 @@ double wave(double x, double y) { return 0.5 + 0.5 * std::sin(x / 171) * std::co
 double bumps(double x, double y) { return 0.5 + 0.5 * std::cos(x / 71 + y / 129); }
 
 std::string plant(const std::string& name, double mean, const std::string& more = "") {
-  return "<plant name=\"" + name + "\"><model radius=\"4 m\"/><neighbourhood radius=\"14 m\"/>" + more + "<property name=\"A\"><Gauss mean=\"" +
-         std::to_string(mean) + "\" deviation=\"0.35\"/></property><property name=\"B\"><Gauss mean=\"" + std::to_string(1 - mean * 0.8) +
+  return "<plant name=\"" + name + "\"><model radius=\"4 m\"/><neighbourhood radius=\"14 m\"/>" + more +
+         "<property name=\"A\"><Gauss mean=\"" + std::to_string(mean) +
+         "\" deviation=\"0.35\"/></property><property name=\"B\"><Gauss mean=\"" + std::to_string(1 - mean * 0.8) +
          "\" deviation=\"0.5\"/></property></plant>";
 }
 
 const std::string pipeline =
-    "<pipeline><FunctionEvaluator><datafield>a</datafield><property>A</property></FunctionEvaluator><FunctionEvaluator><datafield>b</datafield>"
+    "<pipeline><FunctionEvaluator><datafield>a</datafield><property>A</property></"
+    "FunctionEvaluator><FunctionEvaluator><datafield>b</datafield>"
     "<property>B</property></FunctionEvaluator></pipeline>";
 const std::string tiles = "<tiles side=\"80 m\"><radii least=\"2 m\" most=\"6 m\"/></tiles>";
 const std::string three = plant("one", 0.2) + plant("two", 0.5) + plant("three", 0.8);
@@ -48,14 +50,15 @@ struct Grown {
 
 Grown grow(const std::string& neighbourhoods, const std::string& plants = three, double side = 1200,
            const std::string& establishment = "<establishment chance=\"certain\"/>") {
-  Grown grown{evaluators::make_scene(tiles + pipeline + establishment + neighbourhoods, plants, {wave, bumps}, side), {}};
+  Grown grown{evaluators::make_scene(tiles + pipeline + establishment + neighbourhoods, plants, {wave, bumps}, side),
+              {}};
   grown.suitability = evaluators::evaluate_sites(evaluators::Network(grown.scene.scenario, 0), grown.scene.ground());
   return grown;
 }
 
 std::string influences(double value, int passes = 1, const std::string& more = "") {
-  return "<neighbourhoods passes=\"" + std::to_string(passes) + "\"><influence from=\"*\" on=\"*\" value=\"" + std::to_string(value) + "\"/>" + more +
-         "</neighbourhoods>";
+  return "<neighbourhoods passes=\"" + std::to_string(passes) + "\"><influence from=\"*\" on=\"*\" value=\"" +
+         std::to_string(value) + "\"/>" + more + "</neighbourhoods>";
 }
 
 double share_equal(const std::vector<PlantId>& a, const std::vector<PlantId>& b) {
@@ -71,7 +74,8 @@ std::string rivalry(double strength, const std::string& attributes) {
   for (int from = 0; from < 3; ++from) {
     for (int on = 0; on < 3; ++on) {
       const double value = -strength * (from == on ? 0.2 : 1.0 - 0.3 * ((on - from + 3) % 3 == 1));
-      text += std::string("<influence from=\"") + names[from] + "\" on=\"" + names[on] + "\" value=\"" + std::to_string(value) + "\"/>";
+      text += std::string("<influence from=\"") + names[from] + "\" on=\"" + names[on] + "\" value=\"" +
+              std::to_string(value) + "\"/>";
     }
   }
   return text + "</neighbourhoods>";
@@ -109,11 +113,14 @@ TEST(Neighbourhoods, ProbabilitiesStayWithinBounds) {
 
 TEST(Neighbourhoods, ExcludedSpeciesStayExcluded) {
   const std::string lethal =
-      "<pipeline><MinMaxEvaluator lethal=\"true\"><datafield>a</datafield><property>A</property></MinMaxEvaluator></pipeline>";
+      "<pipeline><MinMaxEvaluator "
+      "lethal=\"true\"><datafield>a</datafield><property>A</property></MinMaxEvaluator></pipeline>";
   const std::string two =
       "<plant name=\"low\"><property name=\"A\"><MinMax min=\"0\" max=\"0.5\"/></property></plant>"
       "<plant name=\"high\"><property name=\"A\"><MinMax min=\"0.5\" max=\"0.9\"/></property></plant>";
-  Grown grown{evaluators::make_scene(tiles + lethal + "<establishment chance=\"certain\"/>" + influences(5, 2), two, {wave, bumps}, 400), {}};
+  Grown grown{evaluators::make_scene(tiles + lethal + "<establishment chance=\"certain\"/>" + influences(5, 2), two,
+                                     {wave, bumps}, 400),
+              {}};
   grown.suitability = evaluators::evaluate_sites(evaluators::Network(grown.scene.scenario, 0), grown.scene.ground());
   const Competition result = grown.compete();
   std::size_t bare = 0;
@@ -146,17 +153,22 @@ TEST(Neighbourhoods, BlocksAgreeWithTheSequentialAlgorithm) {
   const Grown grown = grow(rivalry(0.4, "passes=\"1\" cell=\"12 m\""), three, 4000);
   const Competition blocks = grown.compete();
   ASSERT_LT(blocks.report.block_tiles * 80, 1000) << "the land must hold many blocks for this to say anything";
-  const Competition sequential = grown.compete({.one_block = true}), other = grown.compete({.one_block = true}, seed + 1);
+  const Competition sequential = grown.compete({.one_block = true}),
+                    other = grown.compete({.one_block = true}, seed + 1);
   const double with_blocks = share_equal(blocks.population.plants, sequential.population.plants);
   const double among_seeds = share_equal(other.population.plants, sequential.population.plants);
-  std::cout << "agreement of blocks with sequential " << with_blocks << ", of two sequential seeds " << among_seeds << "\n";
+  std::cout << "agreement of blocks with sequential " << with_blocks << ", of two sequential seeds " << among_seeds
+            << "\n";
   EXPECT_LT(std::abs(with_blocks - among_seeds), 0.005);
   EXPECT_LT(among_seeds, 0.9999) << "the influences are too weak for this to say anything";
 
   double distance = 0;
   for (PlantId s = 0; s < 3; ++s) {
-    const auto count = [&](const Competition& c) { return std::count(c.population.plants.begin(), c.population.plants.end(), s); };
-    distance += std::abs(static_cast<double>(count(blocks) - count(sequential))) / static_cast<double>(blocks.population.plants.size());
+    const auto count = [&](const Competition& c) {
+      return std::count(c.population.plants.begin(), c.population.plants.end(), s);
+    };
+    distance += std::abs(static_cast<double>(count(blocks) - count(sequential))) /
+                static_cast<double>(blocks.population.plants.size());
   }
   EXPECT_LT(distance / 2, 0.002);
 }
@@ -166,7 +178,8 @@ TEST(Neighbourhoods, BlocksAgreeWithTheSequentialAlgorithm) {
 TEST(Neighbourhoods, OneSpeciesEqualsTheClosedForm) {
   const Grown grown = grow(influences(-0.05, 2), plant("only", 0.5), 400);
   const Competition result = grown.compete();
-  ASSERT_EQ(result.report.changed[1], 0u);  // one species: the second pass changes no plant, so all neighbours are as at its start
+  ASSERT_EQ(result.report.changed[1],
+            0u);  // one species: the second pass changes no plant, so all neighbours are as at its start
   const Influences fields(grown.layer());
   const auto& scene = grown.scene;
   std::vector<double> x, y, r;
@@ -189,12 +202,14 @@ TEST(Neighbourhoods, OneSpeciesEqualsTheClosedForm) {
       const double c = -std::log(0.1) / (reach - stem);
       expected *= 1 - 0.05 * (d <= stem ? 1 : std::exp(-c * (d - stem)));
     }
-    ASSERT_NEAR(static_cast<double>(result.population.probability[i]), expected, 2e-4 * expected + 1e-6) << "site " << i;
+    ASSERT_NEAR(static_cast<double>(result.population.probability[i]), expected, 2e-4 * expected + 1e-6)
+        << "site " << i;
   }
 }
 
 TEST(Neighbourhoods, FieldIsOneAtTheStemAndFminAtTheRim) {
-  const Grown grown = grow("<neighbourhoods fmin=\"0.2\"><influence from=\"*\" on=\"*\" value=\"-1\"/></neighbourhoods>", three, 160);
+  const Grown grown =
+      grow("<neighbourhoods fmin=\"0.2\"><influence from=\"*\" on=\"*\" value=\"-1\"/></neighbourhoods>", three, 160);
   const InfluenceField field = Influences(grown.layer()).field(0, 6);
   EXPECT_FLOAT_EQ(field.reach_m, 21);
   EXPECT_EQ(field.at(0), 1);
@@ -207,8 +222,10 @@ TEST(Neighbourhoods, FieldIsOneAtTheStemAndFminAtTheRim) {
 // C3: listing the species in another order changes nothing but their numbers.
 TEST(Neighbourhoods, TheOrderOfListingDoesNotMatter) {
   const std::string matrix =
-      "<neighbourhoods passes=\"2\"><influence from=\"one\" on=\"two\" value=\"-0.5\"/><influence from=\"two\" on=\"three\" value=\"-0.3\"/>"
-      "<influence from=\"three\" on=\"one\" value=\"-0.2\"/><influence from=\"two\" on=\"one\" value=\"0.2\"/></neighbourhoods>";
+      "<neighbourhoods passes=\"2\"><influence from=\"one\" on=\"two\" value=\"-0.5\"/><influence from=\"two\" "
+      "on=\"three\" value=\"-0.3\"/>"
+      "<influence from=\"three\" on=\"one\" value=\"-0.2\"/><influence from=\"two\" on=\"one\" "
+      "value=\"0.2\"/></neighbourhoods>";
   const Competition a = grow(matrix, plant("one", 0.2) + plant("two", 0.5) + plant("three", 0.8)).compete();
   const Competition b = grow(matrix, plant("three", 0.8) + plant("one", 0.2) + plant("two", 0.5)).compete();
   const PlantId renamed[] = {1, 2, 0};
@@ -231,8 +248,9 @@ TEST(Neighbourhoods, PassesSettle) {
 }
 
 TEST(Neighbourhoods, ACellMayBeLargerThanATile) {
-  const Grown grown =
-      grow("<neighbourhoods passes=\"1\" cell=\"200 m\"><influence from=\"*\" on=\"*\" value=\"-0.4\"/></neighbourhoods>", three, 800);
+  const Grown grown = grow(
+      "<neighbourhoods passes=\"1\" cell=\"200 m\"><influence from=\"*\" on=\"*\" value=\"-0.4\"/></neighbourhoods>",
+      three, 800);
   const Competition result = grown.compete();
   EXPECT_DOUBLE_EQ(result.report.cell_m, 240);
   EXPECT_EQ(result.report.fixings, grown.scene.offsets.back());
@@ -242,7 +260,8 @@ TEST(Neighbourhoods, ACellMayBeLargerThanATile) {
 TEST(Neighbourhoods, SuppressionThinsTheStand) {
   const auto standing = [](double value) {
     const Competition c = grow(influences(value, 2), three, 800, "<establishment chance=\"stochastic\"/>").compete();
-    return std::count_if(c.population.plants.begin(), c.population.plants.end(), [](PlantId p) { return p != no_plant; });
+    return std::count_if(c.population.plants.begin(), c.population.plants.end(),
+                         [](PlantId p) { return p != no_plant; });
   };
   const auto none = standing(0), some = standing(-0.2), much = standing(-0.5);
   EXPECT_GT(none, some);
