@@ -16,7 +16,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the point's bytes below are written as they lie in memory");
 
-// Points as the format stores them: a header ("GP", version 0, little-endian without envelope, srs) and the point's WKB.
+// Points as the format stores them: a header ("GP", version 0, little-endian, no envelope, srs) and the point's WKB.
 struct PointBytes {
   std::array<std::uint8_t, 29> bytes = {'G', 'P', 0, 1, 0, 0, 0, 0, 1, 1};
 

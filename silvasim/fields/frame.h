@@ -10,8 +10,8 @@
 namespace silvasim::fields {
 
 // The rules, in this order:
-//   CRS: the scene's; else the terrain's (without a terrain: the first georeferenced raster's); if that is in degrees or
-//     feet, or if only an extent in degrees is given, the UTM zone (near the poles UPS) of the scene's middle; else
+//   CRS: the scene's; else the terrain's (without a terrain: the first georeferenced raster's); if that is in degrees
+//     or feet, or if only an extent in degrees is given, the UTM zone (near the poles UPS) of the scene's middle; else
 //     local metres.
 //   Extent: the scene's; else the box around its extent in degrees; else width x height about that raster's middle, or
 //     from (0, 0); else that raster's box.

@@ -35,8 +35,8 @@ struct Cells {
 // squared, their mean (value) or the commonest code (class), so that memory stays bounded by the result.
 //
 // No data: the file's nodata value, the user's, NaN, infinities, what does not fit a float, cells that a mask or an
-//   alpha band hides; in a terrain also -9999, -32767 and -32768, which no ground has and careless files do not declare.
-// Errors: base::Error if the file cannot be read there; base::ConfigError for class codes past 2^24 (inexact in floats).
+//   alpha band hides; in a terrain -9999, -32767 and -32768, which no ground has and careless files do not declare.
+// Errors: base::Error if the file cannot be read there; base::ConfigError for class codes past 2^24 (inexact).
 Cells read_cells(GDALDataset& dataset, const config::FieldSettings& field, Decoding decoding, const CellWindow& window,
                  int block = 1);
 

@@ -1,7 +1,7 @@
 // A whole R-tree for points at once, as the node table of SQLite's rtree module holds it. Row by row SQLite takes 20
 // microseconds a point.
 //
-// Source: the layout of a node as sqlite.org/src/file/ext/rtree/rtree.c describes it (of SQLite 3.6 and later); SQLite's
+// Source: the layout of a node as sqlite.org/src/file/ext/rtree/rtree.c describes it (SQLite 3.6 and later); SQLite's
 // rtreecheck() proves the result in the tests.
 #pragma once
 

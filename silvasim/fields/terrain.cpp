@@ -23,7 +23,7 @@ struct Window {
   float nw, n, ne, w, c, e, sw, s, se;
 };
 
-// A missing neighbour lies on the line through its opposite and the centre, or level with the centre; a missing diagonal
+// A missing neighbour lies on the line through its opposite and the centre, or level with it; a missing diagonal
 // one on the plane through the centre and the two between.
 void complete(float& a, float& b, float centre) {
   const bool no_a = std::isnan(a), no_b = std::isnan(b);
@@ -45,7 +45,7 @@ struct Gradient {
   double x, y;
 };
 
-// Summed in single precision and in this order, as gdaldem does: on high and flat ground the rounding shows, and the two
+// Summed in single precision and in this order, as gdaldem does: on high and flat ground rounding shows, and the two
 // should agree there too.
 Gradient gradient(const Window& z, double width, double height) {
   const float to_east = (z.ne + z.e + z.e + z.se) - (z.nw + z.w + z.w + z.sw);
