@@ -85,7 +85,6 @@ struct SceneSettings {
   std::optional<base::Box> extent_geographic;  // in degrees of WGS 84 (west = longitude); at most one of the extents
   std::optional<double> width_m,
       height_m;         // with neither extent: a local box from (0,0), or the middle of the terrain's
-  bool offline = true;  // never fetch anything: no grids, no URLs
 };
 
 }  // namespace silvasim::config
