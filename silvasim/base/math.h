@@ -2,8 +2,7 @@
 // differ between machines and versions; these use only + - * / and the bits of the number.
 //
 // Promise: error below 2 ulp against the true value wherever the result is a normal number (measured: exp below 1 ulp
-// in
-//   both widths, log below 1 ulp). exp of a value whose result would be subnormal is 0, so that a thread which flushes
+//   in both widths, log below 1 ulp). exp of a value whose result would be subnormal is 0, so that a thread which flushes
 //   subnormals to zero gets the same; too large gives infinity. log(0) is minus infinity, log of a negative is NaN, NaN
 //   stays NaN. In a source compiled with -ffinite-math-only the infinities and NaN are not promised.
 // Cost: no branch, no table, no call: gcc turns a plain loop over floats into SIMD at -O3 -fno-math-errno.

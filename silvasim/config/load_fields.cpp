@@ -37,11 +37,17 @@ FieldKind kind_of(const Node& node) {
   return node.string("kind") == "class" ? FieldKind::class_code : FieldKind::value;
 }
 
-FieldSettings read_raster(Loading& loading, const Node& node) {
+// What every field says of itself.
+FieldSettings begin_field(const Node& node, Source source) {
   FieldSettings field;
   field.name = node.string("name");
   field.place = node.place;
-  field.source = Source::raster;
+  field.source = source;
+  return field;
+}
+
+FieldSettings read_raster(Loading& loading, const Node& node) {
+  FieldSettings field = begin_field(node, Source::raster);
   field.kind = kind_of(node);
   field.terrain = node.boolean("terrain");
   field.band = static_cast<int>(node.number("band"));
@@ -59,10 +65,7 @@ FieldSettings read_raster(Loading& loading, const Node& node) {
 }
 
 FieldSettings read_vector(Loading& loading, const Node& node) {
-  FieldSettings field;
-  field.name = node.string("name");
-  field.place = node.place;
-  field.source = Source::vector;
+  FieldSettings field = begin_field(node, Source::vector);
   field.kind = kind_of(node);
   field.crs = node.string("crs");
   field.layer = node.string("layer");
@@ -94,10 +97,7 @@ FieldSettings read_derived(Loading& loading, const Node& node) {
                                                                  {"tri", TerrainMeasure::tri},
                                                                  {"wetness", TerrainMeasure::wetness},
                                                                  {"hillshade", TerrainMeasure::hillshade}};
-  FieldSettings field;
-  field.name = node.string("name");
-  field.place = node.place;
-  field.source = Source::derived;
+  FieldSettings field = begin_field(node, Source::derived);
   field.derivation = measures.at(node.string("measure"));
   field.of = node.string("of");
   if (node.has("radius")) field.radius_m = node.number("radius");
@@ -170,8 +170,7 @@ void read_fields(Loading& loading, const Node& ecosystem, Scenario& scenario) {
   std::map<std::string, base::Place> seen;
   for (const Node& node : ecosystem.children) {
     const std::string& type = node.rule->type;
-    const bool is_field = type == "Datafield" || type == "Vectorfield" || type == "Derivedfield";
-    if (!is_field) continue;
+    if (type != "Datafield" && type != "Vectorfield" && type != "Derivedfield") continue;
     FieldSettings field = type == "Datafield"     ? read_raster(loading, node)
                           : type == "Vectorfield" ? read_vector(loading, node)
                                                   : read_derived(loading, node);

@@ -66,16 +66,27 @@ void fail_at(const config::FieldSettings& field, const std::string& message) {
   throw base::ConfigError(field.place, "data field \"" + field.name + "\": " + message);
 }
 
+std::string name_for_gdal(const config::FieldSettings& field) {
+  try {
+    return contained_name(field.path);
+  } catch (const base::Error& error) {
+    fail_at(field, error.what());
+  }
+}
+
+Crs crs_of_user(const config::FieldSettings& field) {
+  try {
+    return crs_from_text(field.crs);
+  } catch (const base::Error& error) {
+    fail_at(field, error.what());
+  }
+}
+
 void CloseDataset::operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 
 Dataset open_raster(const config::FieldSettings& field) {
   prepare_gdal();
-  std::string name;
-  try {
-    name = contained_name(field.path);
-  } catch (const base::Error& error) {
-    fail_at(field, error.what());
-  }
+  const std::string name = name_for_gdal(field);
   GdalLog log;
   Dataset dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_INTERNAL,
                                     raster_driver_names(), nullptr, nullptr));
@@ -126,11 +137,7 @@ Georeference georeference_of(GDALDataset& dataset, const config::FieldSettings& 
   if (field.crs == "local") {
     result.crs_known = true;  // the user says: in the scene's own coordinates
   } else if (!field.crs.empty()) {
-    try {
-      result.crs = crs_from_text(field.crs);
-    } catch (const base::Error& error) {
-      fail_at(field, error.what());
-    }
+    result.crs = crs_of_user(field);
     result.crs_known = true;
   } else {
     result.crs = file_crs;

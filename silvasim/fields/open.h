@@ -49,4 +49,8 @@ base::Box own_extent(const Georeference& georeference);
 // Throws the ConfigError that every message about a field is made of: `data field "dem": message`.
 [[noreturn]] void fail_at(const config::FieldSettings& field, const std::string& message);
 
+// What a field's settings say, for GDAL; what cannot be is a ConfigError at the field's place.
+std::string name_for_gdal(const config::FieldSettings& field);  // of the file, contained (containment.h)
+Crs crs_of_user(const config::FieldSettings& field);            // of FieldSettings::crs, which is not empty
+
 }  // namespace silvasim::fields

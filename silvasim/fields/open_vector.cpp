@@ -14,7 +14,6 @@
 
 #include "silvasim/base/error.h"
 #include "silvasim/base/file.h"
-#include "silvasim/fields/containment.h"
 #include "silvasim/fields/drivers.h"
 #include "silvasim/fields/gdal_log.h"
 
@@ -109,12 +108,7 @@ void VectorFile::open() {
   const config::FieldSettings& field = field_;
   prepare_gdal();
   const std::string shown = "\"" + field.path.string() + "\"";
-  std::string name;
-  try {
-    name = contained_name(field.path);
-  } catch (const base::Error& error) {
-    fail_at(field, error.what());
-  }
+  std::string name = name_for_gdal(field);
   GdalLog log;
   if (is_lone_shape(field.path)) name = copy_to_memory(field.path, memory_folder_);
   CPLSetThreadLocalConfigOption("SHAPE_RESTORE_SHX", memory_folder_.empty() ? "NO" : "YES");
@@ -159,11 +153,7 @@ void VectorFile::close() {
 Crs VectorFile::crs() const {
   if (field_.crs == "local") return nullptr;
   if (field_.crs.empty()) return crs_from_gdal(layer_->GetSpatialRef());
-  try {
-    return crs_from_text(field_.crs);
-  } catch (const base::Error& error) {
-    fail_at(field_, error.what());
-  }
+  return crs_of_user(field_);
 }
 
 bool VectorFile::crs_known() const { return !field_.crs.empty() || crs_from_gdal(layer_->GetSpatialRef()) != nullptr; }

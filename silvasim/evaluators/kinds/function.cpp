@@ -7,8 +7,7 @@ EvaluatorType function_evaluator() {
   return {config::evaluator_rule(
               "FunctionEvaluator",
               "The plant's response to the data field's value: its property may be a Gauss, Bezier, Table, Trapezoid, "
-              "MinMax "
-              "or Constant.",
+              "MinMax or Constant.",
               {}, {},
               "<FunctionEvaluator><datafield>moisture</datafield><property>Moisture</property></FunctionEvaluator>"),
           FieldNeed::value, false, [](const EvaluatorMaking& making) {
