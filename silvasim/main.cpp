@@ -50,9 +50,10 @@ void add_run(CLI::App& app, Options& o) {
   command->add_option("-o,--output", o.run.output, "Ecosystem file to write (default: NAME.silva in this folder)");
   command->add_option("--png", o.run.png, "Also write a map as PNG, with a world file");
   command->add_option("--svg", o.run.svg, "Also write a map as SVG, a layer a species");
-  command->add_option("--csv", o.run.csv, "Also write every plant as CSV");
-  command->add_option("--gpkg", o.run.gpkg, "Also write every plant as GeoPackage, styled for QGIS");
-  command->add_option("--geojson", o.run.geojson, "Also write every plant as GeoJSON");
+  for (const auto& format : silvasim::exports::formats()) {
+    const auto keep = [&o, name = format.name](const Path& path) { o.run.exports[name] = path; };
+    command->add_option_function<Path>("--" + format.name, keep, "Also write every plant: " + format.help);
+  }
   command->add_flag("--probabilities", o.run.probabilities,
                     "Keep each plant's growth probability in the ecosystem file");
   add_common(*command, o.run.common);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,7 +30,8 @@ struct RunOptions {
   Common common;
   ScenarioOptions scenario;
   std::optional<Path> output;  // default: the ecosystem file's name with .silva, in the current folder
-  std::optional<Path> svg, png, csv, gpkg, geojson;
+  std::optional<Path> svg, png;
+  std::map<std::string, Path> exports;  // by format
   bool probabilities = false;
 };
 

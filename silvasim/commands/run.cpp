@@ -159,9 +159,9 @@ void run(const RunOptions& options) {
   const config::Scenario scenario = load(options.scenario);
   const Path output = options.output.value_or(options.scenario.ecosystem.stem().string() + ".silva");
   std::vector<Path> outputs{output};
-  for (const auto& extra : {options.svg, options.png, options.csv, options.gpkg, options.geojson}) {
-    if (extra) outputs.push_back(*extra);
-  }
+  if (options.svg) outputs.push_back(*options.svg);
+  if (options.png) outputs.push_back(*options.png);
+  for (const auto& [format, path] : options.exports) outputs.push_back(path);
   const std::vector<Path> inputs = inputs_of(scenario);
   check_outputs(outputs, inputs);
 
@@ -174,7 +174,6 @@ void run(const RunOptions& options) {
   };
   timed("write", [&] { ecosystem::write(grown, output, inputs, progress); });
   const bool pictures = options.png || options.svg;
-  const bool exports = options.csv || options.gpkg || options.geojson;
   if (pictures) {
     timed("pictures", [&] {
       base::report(progress, "pictures", 0);
@@ -182,11 +181,9 @@ void run(const RunOptions& options) {
       if (options.svg) exports::write_svg(grown, {}, *options.svg);
     });
   }
-  if (exports) {
+  if (!options.exports.empty()) {
     timed("export", [&] {
-      if (options.csv) exports::export_to(grown, "csv", *options.csv, progress);
-      if (options.gpkg) exports::export_to(grown, "gpkg", *options.gpkg, progress);
-      if (options.geojson) exports::export_to(grown, "geojson", *options.geojson, progress);
+      for (const auto& [format, path] : options.exports) exports::export_to(grown, format, path, progress);
     });
   }
   end_progress(options.common);

@@ -1,10 +1,6 @@
-#include <algorithm>
-
-#include "silvasim/base/file.h"
-#include "silvasim/base/parallel.h"
 #include "silvasim/export/formats.h"
 #include "silvasim/export/number.h"
-#include "silvasim/export/plant_rows.h"
+#include "silvasim/export/text_rows.h"
 
 namespace silvasim::exports {
 
@@ -36,7 +32,6 @@ void write_csv(const ecosystem::Ecosystem& ecosystem, const std::filesystem::pat
     }
   }
   const auto text_of = [&](std::size_t portion, std::string& text) {
-    text.clear();
     const auto& names_here = names[rows.layer_index_of(portion)];
     const bool probability_here = !rows.layer_of(portion).probabilities.empty();
     const auto number = [&](double value, int decimals) {
@@ -69,20 +64,10 @@ void write_csv(const ecosystem::Ecosystem& ecosystem, const std::filesystem::pat
     });
   };
 
-  base::NewFile file(path);
-  file.write(std::string("id,layer,species,common_name,x_m,y_m,z_m,") +
-             (rows.has_geographic() ? "longitude,latitude," : "") + "height_m,crown_radius_m,scale," +
-             (with_probability ? "probability," : "") + "tile_column,tile_row,site\n");
-  // Sixteen portions at a time are made in parallel and written in their order.
-  std::vector<std::string> texts(16);
-  for (std::size_t first = 0; first < rows.portions(); first += texts.size()) {
-    base::report(progress, "write", static_cast<double>(first) / static_cast<double>(rows.portions()));
-    const std::size_t count = std::min(texts.size(), rows.portions() - first);
-    base::parallel_for(count, [&](std::size_t i) { text_of(first + i, texts[i]); });
-    for (std::size_t i = 0; i < count; ++i) file.write(texts[i]);
-  }
-  file.commit();
-  base::report(progress, "write", 1);
+  const std::string head = std::string("id,layer,species,common_name,x_m,y_m,z_m,") +
+                           (rows.has_geographic() ? "longitude,latitude," : "") + "height_m,crown_radius_m,scale," +
+                           (with_probability ? "probability," : "") + "tile_column,tile_row,site\n";
+  write_text_rows(path, rows, head, text_of, "", progress);
 }
 
 }  // namespace silvasim::exports

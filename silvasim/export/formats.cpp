@@ -16,6 +16,11 @@ const std::vector<Format>& formats() {
        {".gpkg"},
        "GeoPackage with a point a plant; QGIS opens it with crowns in the species' colours",
        &write_gpkg},
+      {"fgb",
+       {".fgb"},
+       "FlatGeobuf with a point a plant, for QGIS and web maps of millions of plants; written ten times as fast as "
+       "gpkg",
+       &write_fgb},
       {"geojson", {".geojson", ".json"}, "GeoJSON (RFC 7946) with a point a plant, for web maps", &write_geojson},
   };
   return table;

@@ -46,9 +46,11 @@ void write_csv(const ecosystem::Ecosystem& ecosystem, const std::filesystem::pat
 
 // gpkg: one layer "plants" in the scene's CRS with a style that QGIS applies by itself: crowns to scale, in the
 // species' colours. geojson: RFC 7946, longitude and latitude; metres where the frame has no place on the earth. In
-// both, the geometry stands for x, y, longitude and latitude.
+// all three, the geometry stands for x, y, longitude and latitude. fgb: as gpkg, without style, sorted by place.
 void write_gpkg(const ecosystem::Ecosystem& ecosystem, const std::filesystem::path& path,
                 const base::Progress& progress);
+void write_fgb(const ecosystem::Ecosystem& ecosystem, const std::filesystem::path& path,
+               const base::Progress& progress);
 void write_geojson(const ecosystem::Ecosystem& ecosystem, const std::filesystem::path& path,
                    const base::Progress& progress);
 

@@ -20,19 +20,17 @@ using fields::ColumnType;
 // The columns of one portion.
 struct Columns {
   std::vector<double> x, y;
-  std::vector<std::int32_t> id, layer, species, common, column, row, site;
-  std::vector<double> long_id, z, height, radius, scale, probability;
+  std::vector<std::int64_t> id, layer, species, common, column, row, site;
+  std::vector<double> z, height, radius, scale, probability;
 };
 
 class Source {
  public:
   explicit Source(const ecosystem::Ecosystem& ecosystem) : rows_(ecosystem, false) {
-    // Past 2^31 sites an id is no 32-bit number any more.
-    long_ids_ = rows_.most_sites() > static_cast<std::uint64_t>(std::numeric_limits<std::int32_t>::max());
     fields::PointColumn layers{"layer", ColumnType::text}, species{"species", ColumnType::text},
         common{"common_name", ColumnType::text};
     for (const ecosystem::Layer& layer : ecosystem.layers) {
-      first_word_.push_back(static_cast<std::int32_t>(species.words.size()));
+      first_word_.push_back(static_cast<std::int64_t>(species.words.size()));
       layers.words.push_back(layer.name);
       for (const ecosystem::Species& each : layer.species) {
         species.words.push_back(each.name);
@@ -40,25 +38,10 @@ class Source {
       }
     }
     table_.crs_wkt = ecosystem.crs_wkt;
-    fields::PointColumn id{"id"};
-    if (long_ids_) {
-      id.type = ColumnType::number;
-      id.digits = 0;
-    }
-    const auto number = [](const char* name, int digits) {
-      fields::PointColumn column{name, ColumnType::number};
-      column.digits = digits;
-      return column;
-    };
-    table_.columns = {id,
-                      layers,
-                      species,
-                      common,
-                      number("z_m", 2),
-                      number("height_m", 3),
-                      number("crown_radius_m", 3),
-                      number("scale", 4)};
-    if (rows_.has_probabilities()) table_.columns.push_back(number("probability", 5));
+    const auto number = [](const char* name) { return fields::PointColumn{name, ColumnType::number}; };
+    table_.columns = {fields::PointColumn{"id"}, layers,         species, common, number("z_m"), number("height_m"),
+                      number("crown_radius_m"),  number("scale")};
+    if (rows_.has_probabilities()) table_.columns.push_back(number("probability"));
     for (const char* name : {"tile_column", "tile_row", "site"}) table_.columns.push_back(fields::PointColumn{name});
   }
 
@@ -76,14 +59,9 @@ class Source {
     }
     const Columns& c = ready_[given_++];
     fields::PointBlock block{c.x, c.y, {}};
-    using Integers = std::span<const std::int32_t>;
+    using Integers = std::span<const std::int64_t>;
     using Numbers = std::span<const double>;
-    if (long_ids_) {
-      block.columns.push_back(Numbers(c.long_id));
-    } else {
-      block.columns.push_back(Integers(c.id));
-    }
-    for (const auto* integers : {&c.layer, &c.species, &c.common}) block.columns.push_back(Integers(*integers));
+    for (const auto* integers : {&c.id, &c.layer, &c.species, &c.common}) block.columns.push_back(Integers(*integers));
     for (const auto* numbers : {&c.z, &c.height, &c.radius, &c.scale}) block.columns.push_back(Numbers(*numbers));
     if (rows_.has_probabilities()) block.columns.push_back(Numbers(c.probability));
     for (const auto* integers : {&c.column, &c.row, &c.site}) block.columns.push_back(Integers(*integers));
@@ -97,13 +75,9 @@ class Source {
     rows_.for_each(portion, [&](const PlantRow& row) {
       c.x.push_back(row.plant.at.x);
       c.y.push_back(row.plant.at.y);
-      if (long_ids_) {
-        c.long_id.push_back(static_cast<double>(row.id));
-      } else {
-        c.id.push_back(static_cast<std::int32_t>(row.id));
-      }
-      const std::int32_t word = first_word_[layer] + row.plant.species;
-      c.layer.push_back(static_cast<std::int32_t>(layer));
+      c.id.push_back(static_cast<std::int64_t>(row.id));
+      const std::int64_t word = first_word_[layer] + row.plant.species;
+      c.layer.push_back(static_cast<std::int64_t>(layer));
       c.species.push_back(word);
       c.common.push_back(table_.columns[3].words[static_cast<std::size_t>(word)].empty() ? -1 : word);
       c.z.push_back(row.z_m);
@@ -114,13 +88,12 @@ class Source {
                                             : std::numeric_limits<double>::quiet_NaN());
       c.column.push_back(row.plant.column);
       c.row.push_back(row.plant.row);
-      c.site.push_back(static_cast<std::int32_t>(row.plant.site));
+      c.site.push_back(row.plant.site);
     });
   }
 
   PlantRows rows_;
-  bool long_ids_ = false;
-  std::vector<std::int32_t> first_word_;  // of each layer in the species' and common names' words
+  std::vector<std::int64_t> first_word_;  // of each layer in the species' and common names' words
   fields::PointLayer table_;
   std::vector<Columns> ready_;
   std::size_t given_ = 0, next_portion_ = 0;
@@ -151,9 +124,9 @@ void write_gpkg(const ecosystem::Ecosystem& ecosystem, const std::filesystem::pa
   write(ecosystem, path, fields::PointFormat::geopackage, progress);
 }
 
-void write_geojson(const ecosystem::Ecosystem& ecosystem, const std::filesystem::path& path,
-                   const base::Progress& progress) {
-  write(ecosystem, path, fields::PointFormat::geojson, progress);
+void write_fgb(const ecosystem::Ecosystem& ecosystem, const std::filesystem::path& path,
+               const base::Progress& progress) {
+  write(ecosystem, path, fields::PointFormat::flatgeobuf, progress);
 }
 
 }  // namespace silvasim::exports

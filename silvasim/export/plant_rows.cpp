@@ -32,7 +32,6 @@ PlantRows::PlantRows(const ecosystem::Ecosystem& ecosystem, bool with_geographic
     const ecosystem::Layer& layer = ecosystem.layers[l];
     offsets_.push_back(ecosystem::site_offsets(layer.tile_set, layer.tiling));
     const auto& offsets = offsets_.back();
-    most_sites_ = std::max(most_sites_, offsets.back());
     for (std::size_t first = 0; first + 1 < offsets.size();) {
       std::size_t last = first + 1;
       while (last + 1 < offsets.size() && offsets[last + 1] - offsets[first] <= portion_sites) ++last;

@@ -31,7 +31,6 @@ class PlantRows {
   std::size_t portions() const { return portions_.size(); }
   const ecosystem::Layer& layer_of(std::size_t portion) const { return ecosystem_.layers[portions_[portion].layer]; }
   std::size_t layer_index_of(std::size_t portion) const { return portions_[portion].layer; }
-  std::uint64_t most_sites() const { return most_sites_; }  // of a layer: no id is larger
   bool has_geographic() const { return geographic_.known(); }
   bool has_probabilities() const;
 
@@ -73,7 +72,6 @@ class PlantRows {
   const ecosystem::Ecosystem& ecosystem_;
   std::vector<std::vector<std::uint64_t>> offsets_;
   std::vector<Portion> portions_;
-  std::uint64_t most_sites_ = 0;
   Geographic geographic_;
 };
 

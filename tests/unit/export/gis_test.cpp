@@ -152,13 +152,31 @@ TEST(GeoJson, holds_every_plant_in_longitude_and_latitude) {
   }
 }
 
+// Commas stand between plants, wherever the first one is.
+TEST(GeoJson, is_whole_with_plants_in_a_late_portion_only_and_with_none) {
+  const Folder folder;
+  MadeLand made = utm_land();
+  made.columns = 40;
+  made.rows = 40;
+  ecosystem::Ecosystem land = make_land(made);
+  std::vector<ecosystem::PlantId>& plants = land.layers[0].plants;
+  ASSERT_GT(plants.size(), 100'000u) << "several portions are wanted";
+  std::fill(plants.begin(), plants.end() - 3, ecosystem::no_plant);
+  std::fill(plants.end() - 3, plants.end(), ecosystem::PlantId{0});
+  export_to(land, "", folder / "late.geojson");
+  EXPECT_EQ(nlohmann::json::parse(content(folder / "late.geojson"))["features"].size(), 3u);
+  std::fill(plants.begin(), plants.end(), ecosystem::no_plant);
+  export_to(land, "", folder / "none.geojson");
+  EXPECT_EQ(nlohmann::json::parse(content(folder / "none.geojson"))["features"].size(), 0u);
+}
+
 TEST(Gis, files_have_the_same_bytes_with_any_number_of_threads) {
   const Folder folder;
   MadeLand made = utm_land();
   made.columns = 30;
   made.rows = 30;
   const ecosystem::Ecosystem land = make_land(made);
-  for (const char* const name : {"f.gpkg", "f.geojson"}) {
+  for (const char* const name : {"f.gpkg", "f.fgb", "f.geojson"}) {
     std::string first;
     for (const int threads : {1, 3}) {
       const base::ThreadLimit limit(threads);
@@ -172,7 +190,8 @@ TEST(Gis, files_have_the_same_bytes_with_any_number_of_threads) {
 TEST(Gis, land_without_a_place_is_exported_in_metres) {
   const Folder folder;
   const ecosystem::Ecosystem land = make_land({});
-  for (const char* const name : {"f.gpkg", "f.geojson"}) EXPECT_NO_THROW(export_to(land, "", folder / name)) << name;
+  for (const char* const name : {"f.gpkg", "f.fgb", "f.geojson"})
+    EXPECT_NO_THROW(export_to(land, "", folder / name)) << name;
   const auto json = nlohmann::json::parse(content(folder / "f.geojson"));
   EXPECT_GT(json["features"][0]["geometry"]["coordinates"][0].get<double>(), 500000);
 }
