@@ -26,9 +26,13 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
   std::atomic<bool> begun{true};
   std::atomic<std::size_t> ended{0};
   begun.store(true, std::memory_order_release);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    if (begun.load(std::memory_order_acquire)) body(i);
-    ended.fetch_add(1, std::memory_order_release);
+  // An arena of our own, because the library's has no more places than the machine has cores.
+  tbb::task_arena arena(thread_count());
+  arena.execute([&] {
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      if (begun.load(std::memory_order_acquire)) body(i);
+      ended.fetch_add(1, std::memory_order_release);
+    });
   });
   (void)ended.load(std::memory_order_acquire);
 }

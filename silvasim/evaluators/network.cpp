@@ -1,7 +1,10 @@
 #include "silvasim/evaluators/network.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "silvasim/base/vector_clones.h"
 
 namespace silvasim::evaluators {
 
@@ -61,6 +64,41 @@ struct Making {
   }
 };
 
+// The loops over a block's columns.
+
+SILVA_VECTOR_CLONES void square(const float* one, float* result, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) result[i] = one[i] * one[i];
+}
+
+SILVA_VECTOR_CLONES void add_square(const float* one, float* result, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) result[i] += one[i] * one[i];
+}
+
+SILVA_VECTOR_CLONES void multiply(const float* one, float least, float* result, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) result[i] *= one[i] > least ? one[i] : least;
+}
+
+SILVA_VECTOR_CLONES void root_of_share(float share, float* result, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const float part = result[i] * share;
+    result[i] = std::sqrt(part < 1.0f ? part : 1.0f);
+  }
+}
+
+// A site stays alive where the result is above 0. Returns whether any is left.
+SILVA_VECTOR_CLONES bool keep_alive(const float* result, float* alive, std::size_t n) {
+  std::uint32_t any = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    alive[i] = result[i] > 0.0f ? alive[i] : 0.0f;
+    any |= std::bit_cast<std::uint32_t>(alive[i]);
+  }
+  return any != 0;
+}
+
+void keep_alive_where_known(const std::uint8_t* no_data, float* alive, std::size_t n) {
+  for (std::size_t i = 0; i < n; ++i) alive[i] = no_data[i] ? 0.0f : alive[i];
+}
+
 std::size_t depth_of(const std::vector<Step>& steps) {
   std::size_t depth = 1;
   for (const Step& step : steps) depth = std::max(depth, depth_of(step.steps) + 1);
@@ -81,7 +119,8 @@ std::vector<std::vector<Step>> make_stages(Making& making) {
   return stages;
 }
 
-// Runs steps for one species over one block. `alive` is 1 or 0 a site; a lethal zero or missing data makes it 0.
+// Runs steps for one species over one block. `alive` is 1 or 0 a site; a lethal zero or missing data makes it 0. Where
+// nothing of the block is left alive, the steps to come are left out: lethal evaluators early in the pipeline save work.
 class Runner {
  public:
   Runner(const Network::Block& block, std::size_t species, float* alive)
@@ -95,19 +134,20 @@ class Runner {
     const bool length = kind == Kind::length;
     if (carried) {
       components = 1;
-      for (std::size_t i = 0; i < n; ++i) result[i] = length ? carried[i] * carried[i] : carried[i];
+      length ? square(carried, result, n) : void(std::copy_n(carried, n, result));
     } else {
       std::fill_n(result, n, length ? 0.0f : 1.0f);
     }
     for (const Step& step : steps) {
+      if (!any_alive_) return;  // the rest decides nothing
       if (!run(step, one, scratch + block_size)) continue;
       components += 1;
       if (length) {
-        for (std::size_t i = 0; i < n; ++i) result[i] += one[i] * one[i];
+        add_square(one, result, n);
       } else {
         const bool floored = step.kind == Kind::evaluator && !step.settings->lethal;
         const float least = floored ? static_cast<float>(step.settings->floor) : 0.0f;
-        for (std::size_t i = 0; i < n; ++i) result[i] *= one[i] > least ? one[i] : least;
+        multiply(one, least, result, n);
       }
     }
     if (!length) return;
@@ -115,8 +155,7 @@ class Runner {
       std::fill_n(result, n, 1.0f);
       return;
     }
-    const float share = 1.0f / components;
-    for (std::size_t i = 0; i < n; ++i) result[i] = std::sqrt(std::min(result[i] * share, 1.0f));
+    root_of_share(1.0f / components, result, n);
   }
 
  private:
@@ -133,17 +172,17 @@ class Runner {
     step.evaluator->evaluate({n, block_.radius_m, field}, species_, result);
     if (step.missing_possible) apply_missing(step, result);
     if (step.settings->lethal) {
-      for (std::size_t i = 0; i < n; ++i) alive_[i] = result[i] > 0.0f ? alive_[i] : 0.0f;
+      any_alive_ = keep_alive(result, alive_, n);
     }
     return true;
   }
 
   void apply_missing(const Step& step, float* result) {
     const std::uint8_t* no_data = block_.no_data[static_cast<std::size_t>(step.column)];
+    if (!no_data) return;
     const std::size_t n = block_.count;
     for (std::size_t i = 0; i < n; ++i) result[i] = no_data[i] ? 1.0f : result[i];
-    if (!step.missing_excludes) return;
-    for (std::size_t i = 0; i < n; ++i) alive_[i] = no_data[i] ? 0.0f : alive_[i];
+    if (step.missing_excludes) keep_alive_where_known(no_data, alive_, n);
   }
 
   bool acts(const Step& step) const {
@@ -154,6 +193,7 @@ class Runner {
   const Network::Block& block_;
   std::size_t species_;
   float* alive_;
+  bool any_alive_ = true;
 };
 
 }  // namespace

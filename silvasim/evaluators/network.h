@@ -53,7 +53,7 @@ class Network {
     std::size_t count = 0;  // at most block_size
     const float* radius_m = nullptr;
     std::vector<const float*> value;           // finite, also where there is no data
-    std::vector<const std::uint8_t*> no_data;  // 1 where there is none
+    std::vector<const std::uint8_t*> no_data;  // 1 where there is none; null: there is some everywhere
   };
 
   struct Scratch {

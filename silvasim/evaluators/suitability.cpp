@@ -88,7 +88,8 @@ Network::Block SiteColumns::block() const {
   block.radius_m = radius_m.data();
   for (std::size_t k = 0; k < value.size(); ++k) {
     block.value.push_back(value[k].data());
-    block.no_data.push_back(no_data[k].data());
+    const bool missing = std::find(no_data[k].begin(), no_data[k].end(), std::uint8_t{1}) != no_data[k].end();
+    block.no_data.push_back(missing ? no_data[k].data() : nullptr);
   }
   return block;
 }
@@ -115,6 +116,7 @@ Suitability evaluate_sites(const Network& network, const Ground& ground, const b
         for (std::size_t i = 0; i < columns.x.size(); ++i) {
           if (columns.outside[i]) std::fill_n(probability + i * species, species, excluded);
         }
+        if (stage + 1 == network.stages()) return;
         for (std::size_t i = 0; i < columns.x.size() * species; ++i) largest = std::max(largest, probability[i]);
       });
       most[r] = largest;

@@ -85,7 +85,7 @@ class Tracer {
     row.tag = step.settings->node.rule->tag;
     const bool reads = step.column >= 0;
     const auto column = static_cast<std::size_t>(std::max(step.column, 0));
-    const bool missing = reads && step.missing_possible && block_.no_data[column][0];
+    const bool missing = reads && step.missing_possible && block_.no_data[column] && block_.no_data[column][0];
     if (reads) {
       row.field = scenario_.fields[static_cast<std::size_t>(step.settings->field)].name;
       if (!missing) row.value = block_.value[column][0];

@@ -1,7 +1,8 @@
 // <Bezier> of 4, 7, 10, ... control points: cubic pieces, drawn from the first point to the last.
 //
 // A 2-D curve with monotone x (docs/reading.md, B3), so that it is a function of x. It is flattened once into 256 chords a
-// piece; the curve is off by less than (1/256)² * |second derivative| / 8, below 0.0001 of a piece's height.
+// piece, which are off by less than (1/256)² * |second derivative| / 8, below 0.0001 of a piece's height; looking them up
+// may add as much again (smooth_curve).
 #include "silvasim/evaluators/properties/piecewise.h"
 #include "silvasim/evaluators/properties/properties.h"
 
@@ -35,7 +36,7 @@ std::unique_ptr<Response> make(const config::Node& node, std::vector<base::Diagn
     }
     points.push_back(d);
   }
-  return std::make_unique<SampledCurve>(std::move(points));
+  return smooth_curve(std::move(points));
 }
 
 }  // namespace

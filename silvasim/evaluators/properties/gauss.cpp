@@ -1,22 +1,24 @@
 // <Gauss mean="0.6" deviation="0.2"/>: exp(-(x - mean)² / (2 deviation²)).
 #include "silvasim/base/math.h"
+#include "silvasim/base/vector_clones.h"
 #include "silvasim/evaluators/properties/properties.h"
 
 namespace silvasim::evaluators {
 
 namespace {
 
+SILVA_VECTOR_CLONES void bell(float mean, float scale, const float* x, float* y, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float off = x[i] - mean;
+    y[i] = base::exp(off * off * scale);
+  }
+}
+
 class Gauss final : public Response {
  public:
   Gauss(float mean, float deviation) : mean_(mean), scale_(-0.5f / (deviation * deviation)) {}
 
-  void apply(const float* x, float* y, std::size_t count) const override {
-    const float mean = mean_, scale = scale_;
-    for (std::size_t i = 0; i < count; ++i) {
-      const float off = x[i] - mean;
-      y[i] = base::exp(off * off * scale);
-    }
-  }
+  void apply(const float* x, float* y, std::size_t count) const override { bell(mean_, scale_, x, y, count); }
 
  private:
   float mean_, scale_;

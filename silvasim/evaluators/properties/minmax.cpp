@@ -1,18 +1,20 @@
 // <MinMax min="0.2" max="0.5"/>: 1 from min to max, both included, else 0.
+#include "silvasim/base/vector_clones.h"
 #include "silvasim/evaluators/properties/properties.h"
 
 namespace silvasim::evaluators {
 
 namespace {
 
+SILVA_VECTOR_CLONES void within(float least, float most, const float* x, float* y, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) y[i] = (x[i] >= least) & (x[i] <= most) ? 1.0f : 0.0f;
+}
+
 class MinMax final : public Response {
  public:
   MinMax(float least, float most) : least_(least), most_(most) {}
 
-  void apply(const float* x, float* y, std::size_t count) const override {
-    const float least = least_, most = most_;
-    for (std::size_t i = 0; i < count; ++i) y[i] = (x[i] >= least) & (x[i] <= most) ? 1.0f : 0.0f;
-  }
+  void apply(const float* x, float* y, std::size_t count) const override { within(least_, most_, x, y, count); }
 
  private:
   float least_, most_;
