@@ -22,7 +22,8 @@ namespace {
 
 using config::VectorMeasure;
 
-constexpr int rim_cells = 2;  // around the extent, so that bilinear reading is whole up to its rim
+constexpr double farthest_m = 200'000;  // distances end here
+constexpr int rim_cells = 2;            // around the extent, so that bilinear reading is whole up to its rim
 
 double cell_size(const config::FieldSettings& field, const Frame& frame) {
   const double longer = std::max(frame.extent.width(), frame.extent.height());
@@ -54,6 +55,11 @@ struct Layer {
   const config::FieldSettings& field;
   Crs crs, scene_crs;
 };
+
+// A layer for distances may lie beside the scene, but hardly as far as this.
+double near_m(const Frame& frame) {
+  return std::max(4 * std::max(frame.extent.width(), frame.extent.height()), 10'000.0);
+}
 
 // The scene, grown by what may count, must meet the layer; looked at in the layer's CRS, since a layer of the whole
 // world has no box in the scene's.
@@ -119,31 +125,61 @@ std::vector<float> distances(Raster& burnt) {
   return result;
 }
 
-// Looks at larger and larger surroundings, until they are as wide as the largest distance found in the scene.
-Raster distance_field(const Layer& layer, const Frame& frame, double cell, double reach_m, BurnCount& count) {
-  const double longer = std::max(frame.extent.width(), frame.extent.height());
-  double margin_m = std::min(reach_m, std::max(longer / 20, 8 * cell));
-  Raster result = blank(frame, cell, rim_cells, 0);
-  while (true) {
-    const int rim = static_cast<int>(std::ceil(margin_m / cell)) + rim_cells;
-    Raster burnt = blank(frame, cell, rim, 0);
-    count = burn(layer, {.attribute = {}, .all_touched = true}, burnt);
-    burnt.values = distances(burnt);
+// The distances of a window with the result's own cells.
+void take_all(const Raster& window, Raster& result) {
+  const int shift = (window.columns - result.columns) / 2;
+  for (int row = 0; row < result.rows; ++row) {
+    const auto from = window.values.begin() + static_cast<std::ptrdiff_t>(row + shift) * window.columns + shift;
+    std::copy_n(from, result.columns, result.values.begin() + static_cast<std::ptrdiff_t>(row) * result.columns);
+  }
+}
 
-    const int shift = rim - rim_cells;
-    double largest = 0;
-    for (int row = 0; row < result.rows; ++row) {
-      for (int column = 0; column < result.columns; ++column) {
-        const float metres = burnt.at(column + shift, row + shift);
-        const double known = metres < 0 ? std::numeric_limits<double>::infinity() : metres;
-        largest = std::max(largest, known);
-        result.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(result.columns) +
-                      static_cast<std::size_t>(column)] = static_cast<float>(std::min(known, reach_m));
+// Those of a coarser window, where the result is farther than `beyond_m` from everything seen before.
+void take_nearer(const Raster& window, double beyond_m, Raster& result) {
+  std::vector<double> x, y;
+  std::vector<float*> cells;
+  for (int row = 0; row < result.rows; ++row) {
+    float* const values = result.values.data() + static_cast<std::ptrdiff_t>(row) * result.columns;
+    x.clear();
+    cells.clear();
+    for (int column = 0; column < result.columns; ++column) {
+      if (static_cast<double>(values[column]) <= beyond_m) continue;
+      x.push_back(result.west + (column + 0.5) * result.cell_width);
+      cells.push_back(values + column);
+    }
+    y.assign(x.size(), result.north - (row + 0.5) * result.cell_height);
+    std::vector<float> metres(x.size());
+    std::vector<std::uint8_t> none(x.size());
+    sample(window, config::FieldKind::value, x, y, metres, none);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (!none[i]) *cells[i] = std::min(*cells[i], metres[i]);
+    }
+  }
+}
+
+// The nearest feature may lie outside the scene. What is found within the margin of the first window is nearest for
+// certain; for the rest of the scene windows follow with twice the margin and twice the cell, so that each costs less
+// than the one before, however far the nearest feature lies.
+Raster distance_field(const Layer& layer, const Frame& frame, double cell, BurnCount& count) {
+  const double longer = std::max(frame.extent.width(), frame.extent.height());
+  Raster result = blank(frame, cell, rim_cells, std::numeric_limits<float>::infinity());
+  double seen_m = 0, margin_m = std::max(longer / 8, 128 * cell);
+  for (double step = cell;; step *= 2, seen_m = margin_m, margin_m *= 2) {
+    Raster window = blank(frame, step, static_cast<int>(std::ceil(margin_m / step)) + rim_cells, 0);
+    count = burn(layer, {.attribute = {}, .all_touched = true}, window);
+    if (count.burnt > 0) {
+      window.values = distances(window);
+      if (step == cell) {
+        take_all(window, result);
+      } else {
+        take_nearer(window, seen_m, result);
       }
     }
-    if (largest <= margin_m || margin_m >= reach_m) return result;
-    margin_m = std::min(reach_m, largest);
+    const float largest = *std::max_element(result.values.begin(), result.values.end());
+    if (static_cast<double>(largest) <= margin_m || margin_m >= farthest_m) break;
   }
+  for (float& metres : result.values) metres = std::min(metres, static_cast<float>(farthest_m));
+  return result;
 }
 
 }  // namespace
@@ -153,17 +189,13 @@ RasterField load_vector_field(const config::FieldSettings& field, const Frame& f
   const Crs scene_crs = crs_of(frame);
   const Layer layer{file, field, crs_in_scene(field, file.crs(), file.crs_known(), scene_crs), scene_crs};
   const double cell = cell_size(field, frame);
-  const double longer = std::max(frame.extent.width(), frame.extent.height());
-  double reach_m = std::max(longer / 2, 1000.0);
-  // A fine grid of a small scene must not become huge by its surroundings.
-  const double most_side_cells = std::sqrt(most_field_cells);
-  reach_m = std::min(reach_m, std::max(longer / 20, (most_side_cells * cell - longer) / 2));
-  require_overlap(layer, frame, field.measure == VectorMeasure::distance ? reach_m : 0);
+  const bool distance = field.measure == VectorMeasure::distance;
+  require_overlap(layer, frame, distance ? near_m(frame) : 0);
 
   RasterField result;
   BurnCount count;
-  if (field.measure == VectorMeasure::distance) {
-    result.raster = distance_field(layer, frame, cell, reach_m, count);
+  if (distance) {
+    result.raster = distance_field(layer, frame, cell, count);
   } else {
     const bool inside = field.measure == VectorMeasure::inside;
     result.raster = blank(frame, cell, rim_cells, inside ? 0 : std::numeric_limits<float>::quiet_NaN());
