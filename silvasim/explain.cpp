@@ -13,125 +13,107 @@ namespace silvasim {
 
 namespace {
 
-struct SitePlace {
-  int column = 0, row = 0;
-  std::size_t site = 0;
-  std::uint64_t index = 0;
-  base::Point at;
-  float radius_m = 0;
-};
-
-// Visits the sites of the tiles within `reach_m` of a point.
-template <typename Visit>
-void for_sites_around(const GrownLayer& grown, base::Point at, double reach_m, Visit&& visit) {
-  const double side = grown.tile_set.side_m;
-  const auto tile = [&](double offset, int count) {
-    return std::clamp(static_cast<int>(std::floor(offset / side)), 0, count - 1);
-  };
-  const int columns = grown.tiling.columns, rows = grown.tiling.rows;
-  for (int row = tile(grown.north_west.y - at.y - reach_m, rows);
-       row <= tile(grown.north_west.y - at.y + reach_m, rows); ++row) {
-    for (int column = tile(at.x - grown.north_west.x - reach_m, columns);
-         column <= tile(at.x - grown.north_west.x + reach_m, columns); ++column) {
-      const std::size_t position = grown.tiling.position(column, row);
-      const auto& sites = grown.tile_set.tiles[grown.tiling.tiles[position]].sites;
-      const base::Point origin{grown.north_west.x + column * side, grown.north_west.y - (row + 1) * side};
-      for (std::size_t k = 0; k < sites.size(); ++k) {
-        visit(SitePlace{column,
-                        row,
-                        k,
-                        grown.offsets[position] + k,
-                        {origin.x + static_cast<double>(sites[k].x_m), origin.y + static_cast<double>(sites[k].y_m)},
-                        sites[k].radius_m});
-      }
-    }
-  }
-}
-
 double distance(base::Point a, base::Point b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-SitePlace nearest_site(const GrownLayer& grown, base::Point at) {
-  SitePlace best;
-  double least = INFINITY;
-  for_sites_around(grown, at, grown.tile_set.side_m, [&](const SitePlace& site) {
-    const double d = distance(site.at, at);
-    if (d < least) {
-      least = d;
-      best = site;
-    }
-  });
-  if (!std::isfinite(least)) throw base::Error("the tiles hold no sites");
-  return best;
+std::size_t best_of(const std::vector<float>& probability) {
+  return static_cast<std::size_t>(std::max_element(probability.begin(), probability.end()) - probability.begin());
 }
 
-void explain_neighbours(const GrownLayer& grown, const config::LayerSettings& settings, const SitePlace& here,
-                        SiteExplanation& explanation) {
-  if (!settings.neighbourhoods.enabled || explanation.candidate == ecosystem::no_plant) return;
+// What the plants that acted on the site did to its subject.
+void explain_neighbours(const GrownLayer& grown, const config::LayerSettings& settings, SiteExplanation& explanation) {
+  if (explanation.subject == ecosystem::no_plant) return;
   const population::Influences influences(settings);
-  const float reach = influences.most_reach(static_cast<float>(grown.tile_set.most_radius_m));
-  for_sites_around(grown, here.at, static_cast<double>(reach), [&](const SitePlace& other) {
-    const ecosystem::PlantId plant = grown.before_corners.plants[other.index];
-    if (other.index == here.index || plant == ecosystem::no_plant || !influences.acts(plant)) return;
-    NeighbourEffect effect{plant, distance(other.at, here.at), 0, 1};
-    effect.strength = influences.field(plant, other.radius_m).at(static_cast<float>(effect.distance_m));
-    effect.factor = std::max(0.0f, 1 + influences.on_others(plant)[explanation.candidate] * effect.strength);
-    if (effect.strength > 0 && effect.factor != 1) explanation.neighbours.push_back(effect);
-  });
+  for (const population::ActingPlant& plant : grown.acting) {
+    const float influence = influences.on_others(plant.species)[explanation.subject];
+    if (influence == 0) continue;
+    explanation.neighbours.push_back({plant.species, static_cast<double>(plant.distance_m), plant.strength,
+                                      std::max(0.0f, 1 + influence * plant.strength)});
+  }
   std::sort(explanation.neighbours.begin(), explanation.neighbours.end(),
             [](const NeighbourEffect& a, const NeighbourEffect& b) { return a.distance_m < b.distance_m; });
 }
 
-void explain_corner(const GrownLayer& grown, const SitePlace& here, SiteExplanation& explanation) {
+void explain_corner(const GrownLayer& grown, const fields::FieldSet& fields, SiteExplanation& explanation) {
   if (!explanation.stood_before_corners || explanation.plant != ecosystem::no_plant) return;
-  for_sites_around(grown, here.at, 2 * grown.tile_set.most_radius_m, [&](const SitePlace& other) {
+  const evaluators::SitePlace& here = *grown.watched;
+  const auto look = [&](const evaluators::SitePlace& other) {
     const double d = distance(other.at, here.at);
     const bool rival = other.index != here.index && grown.plants[other.index] != ecosystem::no_plant &&
                        d < static_cast<double>(other.radius_m) + static_cast<double>(here.radius_m);
     if (rival && (!explanation.gave_way_to || d < explanation.gave_way_to->distance_m)) {
       explanation.gave_way_to = NeighbourEffect{grown.plants[other.index], d, 0, 1};
     }
-  });
+  };
+  evaluators::for_sites_around(grown.ground(fields), here.at, 2 * grown.tile_set.most_radius_m, look);
 }
 
-// What brought a species' probability down most, for the sentence.
-std::string strongest_reason(const SiteExplanation& explanation, std::size_t species) {
+std::string text_of(const evaluators::TraceRow& row, std::size_t species) {
+  if (!row.value && !row.field.empty()) return "field \"" + row.field + "\" has no data there";
+  std::string text = row.tag;
+  if (row.value) text += fmt::format(" of {} = {:.4g}", row.field, *row.value);
+  return text + fmt::format(" gives {:.3g}", *row.result[species]);
+}
+
+// The step at which a species was ruled out; the number of steps where it was not.
+std::size_t ruled_out_at(const SiteExplanation& e, std::size_t species) {
+  std::size_t step = 0;
+  while (step < e.steps.size() && e.steps[step].running[species] >= 0) ++step;
+  return step;
+}
+
+// What ruled a species out, or brought its probability down most.
+std::string strongest_reason(const SiteExplanation& e, std::size_t species) {
+  const std::size_t out = ruled_out_at(e, species);
+  if (out < e.steps.size()) return text_of(e.steps[out], species);
   const evaluators::TraceRow* worst = nullptr;
-  for (const evaluators::TraceRow& row : explanation.steps) {
-    if (!row.result[species] || row.tag == "NormalizeEvaluator" || row.tag == "length" || row.tag == "product")
-      continue;
-    if (!row.value && !row.field.empty()) return "field \"" + row.field + "\" has no data there";
+  for (const evaluators::TraceRow& row : e.steps) {
+    const bool evaluator = row.tag != "NormalizeEvaluator" && row.tag != "length" && row.tag != "product";
+    const bool known = row.value || row.field.empty();
+    if (!row.result[species] || !evaluator || !known) continue;
     if (!worst || *row.result[species] < *worst->result[species]) worst = &row;
   }
-  if (!worst) return "no evaluator acts on it";
-  std::string text = worst->tag;
-  if (worst->value) text += fmt::format(" of {} = {:.4g}", worst->field, *worst->value);
-  return text + fmt::format(" gives {:.3g}", *worst->result[species]);
+  return worst ? text_of(*worst, species) : "no evaluator acts on it";
 }
 
-std::string sentence(const SiteExplanation& e) {
-  if (e.outside) return "Nothing stands here, because the site lies outside the scene.";
-  if (e.candidate == ecosystem::no_plant) {
-    std::size_t best = 0;
-    for (std::size_t s = 1; s < e.abiotic.size(); ++s) {
-      if (e.abiotic[s] > e.abiotic[best]) best = s;
-    }
-    return "Nothing stands here, because no plant can grow on this site; for " + e.species[best] + ", " +
-           strongest_reason(e, best) + ".";
+// " after the neighbours, which ...", or nothing where none acted.
+std::string neighbours_text(const SiteExplanation& e) {
+  if (e.neighbours.empty()) return "";
+  return fmt::format(", which was {:.3g} before the neighbours acted", e.abiotic_probability);
+}
+
+std::string nothing_can_grow(const SiteExplanation& e) {
+  if (e.subject != ecosystem::no_plant) {
+    return fmt::format(
+        "Nothing stands here: the place suits {} best, with a probability of {:.3g}, but the "
+        "neighbours leave no plant a chance.",
+        e.species[e.subject], e.abiotic_probability);
   }
+  // The one that came furthest tells most.
+  std::size_t furthest = 0;
+  for (std::size_t s = 1; s < e.species.size(); ++s) {
+    if (ruled_out_at(e, s) > ruled_out_at(e, furthest)) furthest = s;
+  }
+  return "Nothing stands here, because no plant can grow on this site; for " + e.species[furthest] + ", " +
+         strongest_reason(e, furthest) + ".";
+}
+
+std::string sentence(const SiteExplanation& e, config::Selection selection) {
+  if (e.outside) return "Nothing stands here, because the site lies outside the scene.";
+  if (e.candidate == ecosystem::no_plant) return nothing_can_grow(e);
   const std::string name = e.species[e.candidate];
-  const std::string neighbours =
-      e.neighbours.empty()
-          ? ""
-          : fmt::format(" and the neighbours changed it from {:.3g} to {:.3g}", e.abiotic_probability, e.probability);
+  const std::string chance = fmt::format("a probability of {:.3g}", e.probability) + neighbours_text(e);
+  const bool drawn = selection == config::Selection::weighted;
   if (e.plant != ecosystem::no_plant) {
-    return fmt::format("{} stands here, because of all plants it suits the site best with a probability of {:.3g}{}.",
-                       name, e.probability, neighbours);
+    if (!drawn) return name + " stands here, because of all plants it suits the site best, with " + chance + ".";
+    const std::size_t best = best_of(e.abiotic);
+    const std::string other = best == e.candidate ? ""
+                                                  : fmt::format("; the place alone suits {} best, with {:.3g}",
+                                                                e.species[best], e.abiotic[best]);
+    return name + " stands here, because it was drawn among the plants that can, with " + chance + other + ".";
   }
   if (!e.stood_before_corners) {
-    return fmt::format(
-        "Nothing stands here: {} would suit the site best, but its probability is only {:.3g}{}, and the draw "
-        "went against it; {}.",
-        name, e.probability, neighbours, strongest_reason(e, e.candidate));
+    return "Nothing stands here: " + name + (drawn ? " was drawn for the site" : " would suit the site best") +
+           ", but it had " + chance + ", and chance went against it; " + strongest_reason(e, e.candidate) + ".";
   }
   return fmt::format(
       "Nothing stands here: {} would, but its crown overlaps {} across a tile corner, which stayed.", name,
@@ -142,7 +124,8 @@ std::string sentence(const SiteExplanation& e) {
 SiteExplanation explain_layer(const config::Scenario& scenario, std::size_t index, const fields::FieldSet& fields,
                               const GrownLayer& grown, base::Point at) {
   const config::LayerSettings& settings = scenario.layers[index];
-  const SitePlace here = nearest_site(grown, at);
+  if (!grown.watched) throw base::Error("the tiles hold no sites");
+  const evaluators::SitePlace& here = *grown.watched;
   SiteExplanation explanation;
   explanation.layer = settings.name;
   for (const config::SpeciesSettings& species : settings.species) explanation.species.push_back(species.name);
@@ -173,10 +156,15 @@ SiteExplanation explain_layer(const config::Scenario& scenario, std::size_t inde
   explanation.stood_before_corners = grown.before_corners.plants[here.index] != ecosystem::no_plant;
   explanation.probability = grown.before_corners.probability[here.index];
   explanation.candidate = grown.before_corners.candidates[here.index];
-  if (explanation.candidate != ecosystem::no_plant) explanation.abiotic_probability = abiotic[explanation.candidate];
-  explain_neighbours(grown, settings, here, explanation);
-  explain_corner(grown, here, explanation);
-  explanation.sentence = sentence(explanation);
+  explanation.subject = explanation.candidate;
+  if (explanation.subject == ecosystem::no_plant && !explanation.outside) {
+    const std::size_t best = best_of(explanation.abiotic);
+    if (abiotic[best] > 0) explanation.subject = static_cast<ecosystem::PlantId>(best);
+  }
+  if (explanation.subject != ecosystem::no_plant) explanation.abiotic_probability = abiotic[explanation.subject];
+  explain_neighbours(grown, settings, explanation);
+  explain_corner(grown, fields, explanation);
+  explanation.sentence = sentence(explanation, settings.selection);
   return explanation;
 }
 
@@ -201,7 +189,7 @@ std::vector<SiteExplanation> explain(const config::Scenario& scenario, base::Poi
   std::vector<SiteExplanation> explanations;
   std::vector<std::pair<std::string, double>> seconds;
   for (std::size_t layer = 0; layer < scenario.layers.size(); ++layer) {
-    const GrownLayer grown = grow_layer(scenario, layer, fields, progress, seconds);
+    const GrownLayer grown = grow_layer(scenario, layer, fields, progress, seconds, at);
     explanations.push_back(explain_layer(scenario, layer, fields, grown, at));
   }
   return explanations;

@@ -10,12 +10,12 @@
 
 namespace silvasim {
 
-// A plant near the site that acted on its candidate.
+// A plant near the site that acted on its subject.
 struct NeighbourEffect {
   ecosystem::PlantId species = ecosystem::no_plant;
   double distance_m = 0;
   float strength = 0;  // of its field at the site, in [0,1]
-  float factor = 1;    // by which it multiplied the candidate's probability
+  float factor = 1;    // by which it multiplied the subject's probability
 };
 
 struct SiteExplanation {
@@ -32,8 +32,10 @@ struct SiteExplanation {
   std::vector<evaluators::TraceRow> steps;
   std::vector<float> abiotic;  // probability a species after the pipeline
   ecosystem::PlantId candidate = ecosystem::no_plant;
-  float abiotic_probability = 0, probability = 0;  // of the candidate, before and after the neighbours
-  std::vector<NeighbourEffect> neighbours;
+  // Of whom the rest tells: the candidate; where neighbours left none, the species that the place alone suits best.
+  ecosystem::PlantId subject = ecosystem::no_plant;
+  float abiotic_probability = 0, probability = 0;  // of the subject, before and after the neighbours
+  std::vector<NeighbourEffect> neighbours;         // that acted on it
   bool stood_before_corners = false;
   std::optional<NeighbourEffect> gave_way_to;  // the overlapping plant that stayed
   ecosystem::PlantId plant = ecosystem::no_plant;

@@ -20,7 +20,7 @@ using namespace silvasim::commands;
 
 void add_common(CLI::App& command, Common& common, bool json = true) {
   if (json) command.add_flag("--json", common.json, "Print one JSON object instead of text");
-  command.add_flag("-q,--quiet", common.quiet, "Print nothing but errors (and the JSON, if asked for)");
+  command.add_flag("-q,--quiet", common.quiet, "No progress and no summary; only errors, and what was asked for");
   command
       .add_option("--threads", common.threads, "Threads to use; the result does not depend on it (default: one a core)")
       ->check(CLI::Range(1, 1024));
@@ -30,7 +30,7 @@ void add_scenario(CLI::App& command, ScenarioOptions& scenario) {
   command.add_option("ecosystem", scenario.ecosystem, "The ecosystem file (XML)")->required();
   command.add_option("--plants", scenario.plants, "The plants file (XML); default: the one the ecosystem file names");
   command.add_option("--seed", scenario.seed, "Overrides the ecosystem file's seed")
-      ->check(CLI::Range(0.0, 9007199254740991.0));
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{9007199254740991}));
 }
 
 struct Options {
@@ -47,7 +47,9 @@ struct Options {
 void add_run(CLI::App& app, Options& o) {
   CLI::App* command = app.add_subcommand("run", "Grow the ecosystem and write it");
   add_scenario(*command, o.run.scenario);
-  command->add_option("-o,--output", o.run.output, "Ecosystem file to write (default: NAME.silva in this folder)");
+  command->add_option("-o,--output", o.run.output,
+                      "Ecosystem file to write; default: the XML file's name with .silva in this folder, and of a file "
+                      "called ecosystem.xml its folder's name");
   command->add_option("--png", o.run.png, "Also write a map as PNG, with a world file");
   command->add_option("--svg", o.run.svg, "Also write a map as SVG, a layer a species");
   for (const auto& format : silvasim::exports::formats()) {
@@ -61,8 +63,9 @@ void add_run(CLI::App& app, Options& o) {
 }
 
 void add_validate(CLI::App& app, Options& o) {
-  CLI::App* command = app.add_subcommand("validate", "Check an ecosystem file and its plants file");
+  CLI::App* command = app.add_subcommand("validate", "Check an ecosystem file, its plants file and its data fields");
   add_scenario(*command, o.validate.scenario);
+  command->add_flag("--xml-only", o.validate.xml_only, "Leave the data fields' files alone");
   add_common(*command, o.validate.common);
   command->callback([&o] { validate(o.validate); });
 }
@@ -96,7 +99,8 @@ void add_preview(CLI::App& app, Options& o) {
   command->add_option("--bbox", o.preview.bbox, "WEST,SOUTH,EAST,NORTH in the scene's metres")
       ->delimiter(',')
       ->expected(4);
-  command->add_option("--width", o.preview.width_px, "Width of the picture in pixels")->check(CLI::Range(16, 20000));
+  command->add_option("--width", o.preview.width_px,
+                      "Width of the picture in pixels, 240 to 20000; a bare map from 16 (default: 1600)");
   command->add_option("--title", o.preview.title, "Title of the map");
   command->add_flag("--bare", o.preview.bare, "The map alone, without title, legend and margins");
   add_common(*command, o.preview.common, false);
@@ -114,17 +118,40 @@ void add_export(CLI::App& app, Options& o) {
   command->callback([&o] { export_plants(o.exports); });
 }
 
+const CLI::App* command_of(const CLI::App& app, const std::string& name) {
+  for (const CLI::App* command : app.get_subcommands({})) {
+    if (command->get_name() == name) return command;
+  }
+  return nullptr;
+}
+
 void add_dialect(CLI::App& app, Options& o) {
   app.add_subcommand("schema", "Print the XML Schema of the two XML files")->callback([] { schema(); });
-  CLI::App* command = app.add_subcommand("help", "Explain an element of the XML files");
-  command->add_option("element", o.help.element, "Element, like MinMaxEvaluator (default: all, a line each)");
+  CLI::App* command = app.add_subcommand("help", "Explain an element of the XML files, or a command");
+  command->add_option("element", o.help.element,
+                      "Element, like MinMaxEvaluator, or command, like run (default: all elements, a line each)");
   command->add_flag("--manual", o.help.manual, "The whole manual page, as Markdown");
-  command->callback([&o] { help(o.help); });
+  command->callback([&app, &o] {
+    if (const CLI::App* other = command_of(app, o.help.element)) {
+      fmt::print("{}", other->help());
+    } else {
+      help(o.help);
+    }
+  });
+}
+
+// What stands where a command should, and is none: the library would only say that one is missing.
+void check_command(const CLI::App& app, const std::string& word) {
+  if (word.empty() || word[0] == '-' || command_of(app, word)) return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  throw CLI::ParseError("there is no command \"" + word + "\"" + silvasim::base::did_you_mean(word, names), 2);
 }
 
 // The messages of a configuration are complete lines; others are given the program's name.
 int fail(int code, const std::string& message, bool complete = false) {
-  fmt::print(stderr, "{}{}\n", complete ? "" : "silvasim: error: ", message);
+  // Not by fmt::print, which throws where the message cannot be written; the exit code tells all the same.
+  std::fputs(((complete ? "" : "silvasim: error: ") + message + "\n").c_str(), stderr);
   return code;
 }
 
@@ -147,6 +174,7 @@ int main(int argc, char** argv) {
   app.footer("silvasim COMMAND --help tells a command's options.");
 
   try {
+    check_command(app, argc > 1 ? argv[1] : "");
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail(1, "cannot write to standard output");
     return 0;

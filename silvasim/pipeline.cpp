@@ -1,9 +1,12 @@
 #include "silvasim/pipeline.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
+#include "silvasim/base/machine.h"
 #include "silvasim/evaluators/network.h"
 #include "silvasim/provenance.h"
 #include "silvasim/tiles/fill.h"
@@ -44,6 +47,39 @@ int tiles_across(double length_m, double side_m, const config::LayerSettings& la
                                                    " tiles across; enlarge <tiles side> or lessen the scene");
   }
   return static_cast<int>(count);
+}
+
+// What a layer of so many tiles will hold at once: better said before than after minutes of work.
+void check_memory(const tiles::TileSet& set, int columns, int rows, const config::LayerSettings& layer) {
+  double sites_a_tile = 0;
+  for (const tiles::Tile& tile : set.tiles) {
+    sites_a_tile += static_cast<double>(tile.sites.size()) / static_cast<double>(set.tiles.size());
+  }
+  const double positions = static_cast<double>(columns) * rows, sites = positions * sites_a_tile;
+  constexpr double bytes_a_position = 16, bytes_a_site = 12;
+  const double bytes =
+      positions * bytes_a_position + sites * (bytes_a_site + 4 * static_cast<double>(layer.species.size()));
+  const auto memory = static_cast<double>(base::memory_bytes());
+  if (memory == 0 || bytes < memory) return;
+  throw base::ConfigError(
+      layer.tiles.place,
+      fmt::format(
+          "{} x {} tiles of {:g} m with about {:.3g} sites would take {:.0f} GB of memory, more than this machine "
+          "has; enlarge the tiles or their radii, or run the scene in parts",
+          columns, rows, set.side_m, sites, std::ceil(bytes / 1e9)));
+}
+
+std::vector<std::pair<std::string, double>> without_data(const evaluators::Network& network,
+                                                         const evaluators::Suitability& suitability,
+                                                         const fields::FieldSet& fields) {
+  std::vector<std::pair<std::string, double>> shares;
+  for (std::size_t k = 0; k < suitability.no_data.size(); ++k) {
+    const fields::Field& field = fields.fields[static_cast<std::size_t>(network.fields()[k])];
+    if (suitability.no_data[k] == 0 || field.no_data == config::NoDataPolicy::fill) continue;
+    shares.emplace_back(field.name,
+                        static_cast<double>(suitability.no_data[k]) / static_cast<double>(suitability.inside));
+  }
+  return shares;
 }
 
 std::vector<std::uint64_t> count_plants(const std::vector<ecosystem::PlantId>& plants, std::size_t species) {
@@ -92,7 +128,8 @@ ecosystem::Layer finished(GrownLayer grown, const config::LayerSettings& setting
 }  // namespace
 
 GrownLayer grow_layer(const config::Scenario& scenario, std::size_t index, const fields::FieldSet& fields,
-                      const base::Progress& progress, std::vector<std::pair<std::string, double>>& seconds) {
+                      const base::Progress& progress, std::vector<std::pair<std::string, double>>& seconds,
+                      std::optional<base::Point> watch) {
   const config::LayerSettings& settings = scenario.layers[index];
   const std::uint64_t seed = population::layer_seed(scenario.seed, index);
   const auto number = static_cast<std::uint32_t>(index);
@@ -101,42 +138,48 @@ GrownLayer grow_layer(const config::Scenario& scenario, std::size_t index, const
 
   // 1. Fill the Wang tiles with Poisson discs (section 4.1).
   {
-    Stopwatch watch(seconds, "tiles");
+    Stopwatch stopwatch(seconds, "tiles");
     base::report(progress, "tiles", 0);
     grown.tile_set = tiles::fill_tiles(settings.tiles, scenario.seed, number);
   }
   // 2. Tile the land.
   {
-    Stopwatch watch(seconds, "tiling");
+    Stopwatch stopwatch(seconds, "tiling");
     const double side = grown.tile_set.side_m;
-    grown.tiling = tiles::tile_land(grown.tile_set, tiles_across(extent.width(), side, settings),
-                                    tiles_across(extent.height(), side, settings), scenario.seed, number);
+    const int columns = tiles_across(extent.width(), side, settings);
+    const int rows = tiles_across(extent.height(), side, settings);
+    check_memory(grown.tile_set, columns, rows, settings);
+    grown.tiling = tiles::tile_land(grown.tile_set, columns, rows, scenario.seed, number);
     grown.north_west = {extent.west, extent.north};
     grown.offsets = ecosystem::site_offsets(grown.tile_set, grown.tiling);
   }
-  const evaluators::Ground ground{grown.tile_set, grown.tiling, grown.north_west, grown.offsets, fields};
+  const evaluators::Ground ground = grown.ground(fields);
+  population::NeighbourhoodOptions competing;
+  if (watch && (grown.watched = evaluators::nearest_site(ground, *watch))) competing.watch = grown.watched->index;
 
   // 3. Evaluate the place on every site (section 4.2).
   {
-    Stopwatch watch(seconds, "evaluate");
+    Stopwatch stopwatch(seconds, "evaluate");
     const evaluators::Network network(scenario, index);
     grown.suitability = evaluators::evaluate_sites(network, ground, progress);
+    grown.report.no_data = without_data(network, grown.suitability, fields);
   }
   // 4. Let neighbours compete (section 4.3).
   {
-    Stopwatch watch(seconds, "neighbours");
+    Stopwatch stopwatch(seconds, "neighbours");
     if (settings.neighbourhoods.enabled) {
       population::Competition competition =
-          population::compete(grown.suitability, ground, settings, seed, {}, progress);
+          population::compete(grown.suitability, ground, settings, seed, competing, progress);
       grown.before_corners = std::move(competition.population);
       grown.report.neighbourhoods = std::move(competition.report);
+      grown.acting = std::move(competition.acting);
     } else {
       grown.before_corners = population::establish(grown.suitability, ground, settings, seed, progress);
     }
   }
   // 5. Solve the corner problem (section 4.4).
   {
-    Stopwatch watch(seconds, "corners");
+    Stopwatch stopwatch(seconds, "corners");
     grown.plants = grown.before_corners.plants;
     grown.report.corners = population::prune_corners(grown.tile_set, grown.tiling, grown.offsets, grown.plants,
                                                      grown.before_corners.probability, settings.corners, progress);
@@ -161,7 +204,7 @@ Simulation simulate(const config::Scenario& scenario, const SimulationOptions& o
   SimulationReport& report = simulation.report;
   fields::FieldSet fields;
   {
-    Stopwatch watch(report.seconds, "fields");
+    Stopwatch stopwatch(report.seconds, "fields");
     fields = fields::load_fields(scenario.scene, scenario.fields, options.progress);
     report.frame = fields::report_frame(fields.frame);
   }

@@ -4,6 +4,7 @@
 // Source: Silva 2013, section 4.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,6 +31,8 @@ struct LayerReport {
   std::uint64_t plants = 0;
   std::vector<std::uint64_t> plants_by_species;
   int tile_columns = 0, tile_rows = 0, tile_kinds = 0;
+  // Fields that have no data somewhere, and on which share of the sites inside the scene. Not those whose policy is fill.
+  std::vector<std::pair<std::string, double>> no_data;
   population::NeighbourhoodReport neighbourhoods;  // passes = 0: none asked for
   population::CornerReport corners;
 };
@@ -57,9 +60,16 @@ struct GrownLayer {
   population::Population before_corners;
   std::vector<ecosystem::PlantId> plants;  // after the corners
   LayerReport report;
+  std::optional<evaluators::SitePlace> watched;  // the site nearest to the point that was to be watched
+  std::vector<population::ActingPlant> acting;   // the plants that acted on it
+
+  evaluators::Ground ground(const fields::FieldSet& fields) const {
+    return {tile_set, tiling, north_west, offsets, fields};
+  }
 };
 
 GrownLayer grow_layer(const config::Scenario& scenario, std::size_t layer, const fields::FieldSet& fields,
-                      const base::Progress& progress, std::vector<std::pair<std::string, double>>& seconds);
+                      const base::Progress& progress, std::vector<std::pair<std::string, double>>& seconds,
+                      std::optional<base::Point> watch = {});
 
 }  // namespace silvasim

@@ -55,6 +55,12 @@ std::string to_string(const Diagnostic& diagnostic) {
   return to_string(diagnostic.place) + ": error: " + diagnostic.message;
 }
 
+void add(std::vector<Diagnostic>& diagnostics, Place place, std::string message) {
+  if (diagnostics.size() > most_diagnostics) return;
+  if (diagnostics.size() == most_diagnostics) message = "... and more";
+  diagnostics.push_back({std::move(place), std::move(message)});
+}
+
 ConfigError::ConfigError(std::vector<Diagnostic> diagnostics)
     : Error(joined(diagnostics)), diagnostics_(std::move(diagnostics)) {}
 

@@ -3,6 +3,7 @@
 // Errors travel as exceptions to main(), the only place that prints one and ends the program.
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -43,6 +44,11 @@ class ConfigError : public Error {
  private:
   std::vector<Diagnostic> diagnostics_;
 };
+
+// Appends a finding. After `most_diagnostics` there comes a last one, "... and more", so that a file of another kind can
+// not flood the reader.
+inline constexpr std::size_t most_diagnostics = 100;
+void add(std::vector<Diagnostic>& diagnostics, Place place, std::string message);
 
 // "file:line:column: error: message"
 std::string to_string(const Diagnostic& diagnostic);

@@ -29,7 +29,7 @@ struct ScenarioOptions {
 struct RunOptions {
   Common common;
   ScenarioOptions scenario;
-  std::optional<Path> output;  // default: the ecosystem file's name with .silva, in the current folder
+  std::optional<Path> output;  // default: named after the ecosystem file or its folder, in the current folder
   std::optional<Path> svg, png;
   std::map<std::string, Path> exports;  // by format
   bool probabilities = false;
@@ -38,6 +38,7 @@ struct RunOptions {
 struct ValidateOptions {
   Common common;
   ScenarioOptions scenario;
+  bool xml_only = false;  // leave the data alone
 };
 
 struct ExplainOptions {

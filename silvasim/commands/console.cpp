@@ -1,7 +1,6 @@
 #include "silvasim/commands/console.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -22,6 +21,12 @@ bool on_terminal() {
   return isatty(STDERR_FILENO) && terminal && std::string(terminal) != "dumb";
 }
 
+// A log on a full disk must not end the work that it tells of, so what cannot be said is left unsaid.
+template <typename... Parts>
+void say(fmt::format_string<Parts...> format, Parts&&... parts) {
+  std::fputs(fmt::format(format, std::forward<Parts>(parts)...).c_str(), stderr);
+}
+
 struct Bar {
   std::mutex mutex;
   std::string stage;
@@ -35,7 +40,7 @@ struct Bar {
     if (new_stage) {
       stage = now;
       furthest = 0;
-      if (!terminal) fmt::print(stderr, "{} ...\n", stage);
+      if (!terminal) say("{} ...\n", stage);
     }
     if (!terminal) return;
     furthest = std::max(furthest, std::min(done, 1.0));
@@ -44,8 +49,8 @@ struct Bar {
     drawn = time;
     constexpr int width = 30;
     const int filled = static_cast<int>(furthest * width);
-    fmt::print(stderr, "\r\x1b[K{:<11} [{}{}] {:3.0f} %", stage, std::string(static_cast<std::size_t>(filled), '#'),
-               std::string(static_cast<std::size_t>(width - filled), '.'), furthest * 100);
+    say("\r\x1b[K{:<11} [{}{}] {:3.0f} %", stage, std::string(static_cast<std::size_t>(filled), '#'),
+        std::string(static_cast<std::size_t>(width - filled), '.'), furthest * 100);
     std::fflush(stderr);
   }
 };
@@ -61,7 +66,7 @@ base::Progress console_progress(const Common& common) {
 }
 
 void end_progress(const Common& common) {
-  if (!common.quiet && on_terminal()) fmt::print(stderr, "\r\x1b[K");
+  if (!common.quiet && on_terminal()) say("\r\x1b[K");
 }
 
 config::Scenario load(const ScenarioOptions& options) {
@@ -80,12 +85,6 @@ std::string bytes_text(std::uint64_t bytes) {
   if (bytes < 1000) return fmt::format("{} bytes", bytes);
   if (bytes < 1000000) return fmt::format("{:.1f} kB", static_cast<double>(bytes) / 1e3);
   return fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
-}
-
-std::uint64_t peak_rss_bytes() {
-  struct rusage usage {};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 }  // namespace silvasim::commands

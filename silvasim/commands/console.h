@@ -22,6 +22,4 @@ std::string grouped(std::uint64_t number);
 // "12.3 MB"
 std::string bytes_text(std::uint64_t bytes);
 
-std::uint64_t peak_rss_bytes();
-
 }  // namespace silvasim::commands

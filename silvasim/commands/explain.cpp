@@ -42,7 +42,7 @@ void print_layer(const SiteExplanation& e) {
     fmt::print("    {:<48} {:>8}\n", "from the place alone", number(e.abiotic[s]));
   }
   if (!e.neighbours.empty()) {
-    fmt::print("\n  neighbours act on {}: {:.3f} before, {:.3f} after\n", e.species[e.candidate], e.abiotic_probability,
+    fmt::print("\n  neighbours act on {}: {:.3f} before, {:.3f} after\n", e.species[e.subject], e.abiotic_probability,
                e.probability);
     for (const NeighbourEffect& n : e.neighbours) {
       fmt::print("    {:<30} {:6.1f} m away, field {:.3f}, times {:.3f}\n", e.species[n.species], n.distance_m,
@@ -89,6 +89,7 @@ Json as_json(const SiteExplanation& e) {
     return id == ecosystem::no_plant ? Json(nullptr) : Json(e.species[id]);
   };
   json["candidate"] = name(e.candidate);
+  json["subject"] = name(e.subject);
   json["abiotic_probability"] = e.abiotic_probability;
   json["probability"] = e.probability;
   json["neighbours"] = Json::array();

@@ -7,6 +7,7 @@
 #include "silvasim/base/parallel.h"
 #include "silvasim/commands/commands.h"
 #include "silvasim/commands/console.h"
+#include "silvasim/commands/outputs.h"
 #include "silvasim/ecosystem/file.h"
 #include "silvasim/export/formats.h"
 
@@ -22,6 +23,7 @@ void preview(const PreviewOptions& options) {
   picture.title = options.title;
   if (!options.bbox.empty())
     picture.bbox = base::Box{options.bbox[0], options.bbox[1], options.bbox[2], options.bbox[3]};
+  check_outputs({options.output}, {options.ecosystem});
   const base::Progress progress = console_progress(options.common);
   const ecosystem::Ecosystem grown = ecosystem::read(options.ecosystem, progress);
   exports::write_preview(grown, picture, options.output);
@@ -32,6 +34,7 @@ void preview(const PreviewOptions& options) {
 
 void export_plants(const ExportOptions& options) {
   const base::ThreadLimit limit(options.common.threads);
+  check_outputs({options.output}, {options.ecosystem});
   const base::Progress progress = console_progress(options.common);
   const ecosystem::Ecosystem grown = ecosystem::read(options.ecosystem, progress);
   exports::export_to(grown, options.format, options.output, progress);

@@ -6,10 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "silvasim/base/error.h"
-#include "silvasim/base/file.h"
+#include "silvasim/base/machine.h"
 #include "silvasim/base/parallel.h"
 #include "silvasim/commands/commands.h"
 #include "silvasim/commands/console.h"
+#include "silvasim/commands/outputs.h"
 #include "silvasim/ecosystem/file.h"
 #include "silvasim/export/formats.h"
 #include "silvasim/export/picture.h"
@@ -22,18 +23,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// No output may be an input or another output, and each must be writable by name before the work begins.
-void check_outputs(const std::vector<Path>& outputs, const std::vector<Path>& inputs) {
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      if (std::filesystem::weakly_canonical(outputs[i]) == std::filesystem::weakly_canonical(outputs[k])) {
-        throw base::ConfigError({"command line", 0, 0}, "two outputs have the name \"" + outputs[i].string() + "\"");
-      }
-    }
-    base::NewFile probe(outputs[i], inputs);
-  }
-}
-
 std::vector<Path> inputs_of(const config::Scenario& scenario) {
   std::vector<Path> inputs;
   for (const config::SourceFile& file : scenario.files) inputs.emplace_back(file.path);
@@ -43,9 +32,19 @@ std::vector<Path> inputs_of(const config::Scenario& scenario) {
   return inputs;
 }
 
+// Many scenarios are called ecosystem.xml, each in a folder of its own: those are told apart by the folder.
+Path default_output(const Path& ecosystem) {
+  std::string name = ecosystem.stem().string();
+  const std::string folder = std::filesystem::absolute(ecosystem).parent_path().filename().string();
+  if (name == "ecosystem" && !folder.empty()) name = folder;
+  return name + ".silva";
+}
+
 Json layer_json(const LayerReport& layer, const ecosystem::Layer& grown) {
   Json by_species = Json::object();
   for (std::size_t s = 0; s < grown.species.size(); ++s) by_species[grown.species[s].name] = layer.plants_by_species[s];
+  Json no_data = Json::object();
+  for (const auto& [field, share] : layer.no_data) no_data[field] = share;
   return {{"name", layer.name},
           {"sites", layer.sites},
           {"plants", layer.plants},
@@ -55,6 +54,7 @@ Json layer_json(const LayerReport& layer, const ecosystem::Layer& grown) {
             {"rows", layer.tile_rows},
             {"kinds", layer.tile_kinds},
             {"side_m", grown.tile_set.side_m}}},
+          {"no_data", no_data},
           {"neighbourhood_passes", layer.neighbourhoods.passes},
           {"neighbourhood_changed", layer.neighbourhoods.changed},
           {"neighbourhood_cell_m", layer.neighbourhoods.cell_m},
@@ -79,7 +79,10 @@ Json report_json(const config::Scenario& scenario, const Simulation& simulation,
     removed += layer.corners.removed;
     passes = std::max(passes, layer.neighbourhoods.passes);
     Json one = layer_json(layer, simulation.ecosystem.layers[i]);
-    by_species.update(one["plants_by_species"]);
+    // A species may grow in several layers.
+    for (const auto& [name, count] : one["plants_by_species"].items()) {
+      by_species[name] = by_species.value(name, std::uint64_t{0}) + count.get<std::uint64_t>();
+    }
     layers.push_back(std::move(one));
   }
   json["name"] = scenario.name;
@@ -106,7 +109,7 @@ Json report_json(const config::Scenario& scenario, const Simulation& simulation,
   for (const auto& [stage, time] : simulation.report.seconds) seconds[stage] = time;
   seconds["total"] = total;
   json["seconds"] = seconds;
-  json["peak_rss_bytes"] = peak_rss_bytes();
+  json["peak_rss_bytes"] = base::peak_rss_bytes();
   json["threads"] = threads;
   json["seed"] = scenario.seed;
   json["version"] = version;
@@ -141,8 +144,14 @@ void print_summary(const Simulation& simulation, const std::vector<Path>& output
     most += fmt::format("{}{} {:.0f} %", i ? ", " : "", species[i].second, share);
   }
   fmt::print("most     {}\n", most);
+  for (const LayerReport& layer : simulation.report.layers) {
+    for (const auto& [field, share] : layer.no_data) {
+      fmt::print("no data  field \"{}\" has none on {:.1f} % of the sites of layer \"{}\"\n", field, 100 * share,
+                 layer.name);
+    }
+  }
   fmt::print("corners  {} overlaps, {} plants gave way\n", grouped(conflicts), grouped(removed));
-  fmt::print("time     {:.2f} s, {} of memory at most\n", total, bytes_text(peak_rss_bytes()));
+  fmt::print("time     {:.2f} s, {} of memory at most\n", total, bytes_text(base::peak_rss_bytes()));
   for (const Path& output : outputs) {
     fmt::print("wrote    {} ({})\n", output.string(), bytes_text(std::filesystem::file_size(output)));
   }
@@ -157,7 +166,7 @@ void run(const RunOptions& options) {
   const base::Progress progress = console_progress(options.common);
 
   const config::Scenario scenario = load(options.scenario);
-  const Path output = options.output.value_or(options.scenario.ecosystem.stem().string() + ".silva");
+  const Path output = options.output.value_or(default_output(options.scenario.ecosystem));
   std::vector<Path> outputs{output};
   if (options.svg) outputs.push_back(*options.svg);
   if (options.png) outputs.push_back(*options.png);

@@ -37,7 +37,8 @@ TileSettings read_tiles(Loading& loading, const Node& layer) {
     if (radii->has("mean")) tiles.mean_radius_m = radii->number("mean");
     if (radii->has("deviation")) tiles.deviation_radius_m = radii->number("deviation");
     if (tiles.least_radius_m > tiles.most_radius_m)
-      loading.error(radii->place, "<radii> reversed: least is above most");
+      loading.error(radii->place, "<radii> reversed: least=\"" + to_text(tiles.least_radius_m) +
+                                      " m\" is above most=\"" + to_text(tiles.most_radius_m) + " m\"");
     if (tiles.distribution == RadiusDistribution::uniform && (radii->given("mean") || radii->given("deviation"))) {
       loading.error(radii->place,
                     "<radii>: mean and deviation are used with distribution=\"normal\" or \"lognormal\" only");
@@ -231,7 +232,7 @@ NeighbourhoodSettings read_neighbourhoods(Loading& loading, const Node& node, co
   for (const Node* plant : plants.all("Plant")) {
     const std::string name = plant_name(*plant);
     const bool here = std::any_of(layer.species.begin(), layer.species.end(),
-                                  [&](const SpeciesSettings& species) { return species.name == name; });
+                                  [&](const SpeciesSettings& species) { return species.place == plant->place; });
     if (!here) continue;
     for (const Node* influence : plant->all("PlantInfluence")) {
       if (!written) {

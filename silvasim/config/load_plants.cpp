@@ -3,6 +3,7 @@
 #include <map>
 
 #include "silvasim/config/loading.h"
+#include "silvasim/config/value.h"
 
 namespace silvasim::config {
 
@@ -50,7 +51,9 @@ SpeciesSettings read_species(Loading& loading, const Node& node, std::size_t num
   if (scale) {
     species.least_scale = scale->number("least");
     if (scale->has("most")) species.most_scale = scale->number("most");
-    if (species.least_scale > species.most_scale) loading.error(scale->place, "<scale> reversed: least is above most");
+    if (species.least_scale > species.most_scale) 
+      loading.error(scale->place, "<scale> reversed: least=\"" + to_text(species.least_scale) + "\" is above most=\"" +
+                                      to_text(species.most_scale) + "\"");
   }
   const Node* neighbourhood = node.child("Neighbourhood");
   species.fon_radius_m = neighbourhood ? neighbourhood->number("radius") : 2 * species.model_radius_m;
@@ -82,15 +85,10 @@ std::string plant_name(const Node& plant) {
 void read_plants(Loading& loading, const Node& plants, Scenario& scenario) {
   std::vector<std::string> layer_names;
   for (const LayerSettings& layer : scenario.layers) layer_names.push_back(layer.name);
-  std::map<std::string, base::Place> seen;
+  std::map<std::pair<std::size_t, std::string>, base::Place> seen;  // by layer and name
   std::size_t number = 0;
   for (const Node* node : plants.all("Plant")) {
     SpeciesSettings species = read_species(loading, *node, number++);
-    const auto [first, is_new] = seen.emplace(species.name, species.place);
-    if (!is_new && !species.name.empty()) {
-      loading.error(species.place,
-                    "plant \"" + species.name + "\" stands twice; the first is at " + short_place(first->second));
-    }
     const std::string& layer = node->string("layer");
     std::size_t index = 0;
     while (!layer.empty() && index < layer_names.size() && layer_names[index] != layer) ++index;
@@ -98,6 +96,12 @@ void read_plants(Loading& loading, const Node& plants, Scenario& scenario) {
       loading.error(node->place_of("layer"), "plant \"" + species.name + "\" grows in the unknown layer \"" + layer +
                                                  "\"" + base::did_you_mean(layer, layer_names));
       continue;
+    }
+    // The same species may grow in several layers, as tree and as shrub.
+    const auto [first, is_new] = seen.emplace(std::pair(index, species.name), species.place);
+    if (!is_new && !species.name.empty()) {
+      loading.error(species.place, "plant \"" + species.name + "\" stands twice in layer \"" + layer_names[index] +
+                                       "\"; the first is at " + short_place(first->second));
     }
     scenario.layers[index].species.push_back(std::move(species));
   }
@@ -107,6 +111,8 @@ void read_plants(Loading& loading, const Node& plants, Scenario& scenario) {
     if (layer.species.size() > most_species) {
       loading.error(layer.place,
                     "layer \"" + layer.name + "\" has more than " + std::to_string(most_species) + " plants");
+      // What follows needs room in the square of their number.
+      throw base::ConfigError(std::move(loading.errors));
     }
   }
 }

@@ -15,7 +15,7 @@ struct Loading {
   std::vector<base::Diagnostic> errors;
   std::vector<SourceFile> files;
 
-  void error(const base::Place& place, std::string message) { errors.push_back({place, std::move(message)}); }
+  void error(const base::Place& place, std::string message) { base::add(errors, place, std::move(message)); }
 };
 
 // A file name in the XML, relative to the file that names it.

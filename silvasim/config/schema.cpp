@@ -79,7 +79,11 @@ std::string complex_type(const ElementRule& rule, const Dialect& dialect) {
     const char* base = rule.text_required ? simple_type(rule.text) : "xs:string";
     out += "    <xs:simpleContent><xs:extension base=\"" + std::string(base) + "\">\n";
     indent = "      ";
-  } else if (!rule.children.empty()) {
+  } else if (rule.children.empty()) {
+    // Without content, but a formatter may put a blank or a new line there.
+    out += "    <xs:simpleContent><xs:extension base=\"NoValue\">\n";
+    indent = "      ";
+  } else {
     out += "    <xs:choice minOccurs=\"0\" maxOccurs=\"unbounded\">\n";
     for (const ChildRule& child : rule.children) {
       out += "      <xs:element name=\"" + dialect.rule(child.type).tag + "\" type=\"" + child.type + "\"/>\n";
@@ -87,7 +91,7 @@ std::string complex_type(const ElementRule& rule, const Dialect& dialect) {
     out += "    </xs:choice>\n";
   }
   for (const AttributeRule& a : rule.attributes) out += attribute(a, indent);
-  if (rule.text != ValueType::none) out += "    </xs:extension></xs:simpleContent>\n";
+  if (rule.text != ValueType::none || rule.children.empty()) out += "    </xs:extension></xs:simpleContent>\n";
   return out + "  </xs:complexType>\n";
 }
 
@@ -102,7 +106,8 @@ std::string simple_types() {
   return restricted("NumberValue", blank + number + blank) + restricted("WholeValue", blank + number + blank) +
          restricted("ShareValue", blank + number + blank + "%?" + blank) +
          restricted("LengthValue", blank + number + blank + "(m|km|cm|mm|ft)?" + blank) +
-         restricted("ColourValue", blank + "#[0-9a-fA-F]{6}" + blank) + restricted("TextValue", blank + "\\S[\\S\\s]*");
+         restricted("ColourValue", blank + "#[0-9a-fA-F]{6}" + blank) + restricted("TextValue", blank + "\\S[\\S\\s]*") +
+         restricted("NoValue", blank);
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ struct Findings {
 
 void collect(void* context, xmlErrorPtr error) {
   auto& findings = *static_cast<Findings*>(context);
-  findings.found.push_back(
-      {{findings.file, error->line, 0}, "schema: " + trimmed(error->message ? error->message : "")});
+  base::add(findings.found, {findings.file, error->line, 0},
+            "schema: " + trimmed(error->message ? error->message : ""));
 }
 
 template <typename T, void (*free)(T*)>

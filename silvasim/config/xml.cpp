@@ -3,7 +3,9 @@
 #include <tinyxml2.h>
 
 #include <limits>
+#include <string_view>
 
+#include "silvasim/base/words.h"
 #include "silvasim/config/value.h"
 #include "silvasim/config/xml_text.h"
 
@@ -15,25 +17,58 @@ struct Reader {
   const std::string& file;
   const Dialect& dialect;
   std::vector<base::Diagnostic>& errors;
-  ColumnFinder columns;
+  const XmlPlaces& places;
 
   Node element(const tinyxml2::XMLElement& xml, const ElementRule& rule);
   void attributes(const tinyxml2::XMLElement& xml, Node& node);
   void content(const tinyxml2::XMLElement& xml, Node& node);
   void child_counts(Node& node);
-  void error(base::Place place, std::string message) { errors.push_back({std::move(place), std::move(message)}); }
+  const XmlPlaces::Element& mark(const tinyxml2::XMLElement& xml) const {
+    return *static_cast<const XmlPlaces::Element*>(xml.GetUserData());
+  }
+  base::Place at(TextPlace place) const { return {file, place.line, place.column}; }
+  bool full() const { return errors.size() > base::most_diagnostics; }
+  void error(base::Place place, std::string message) { base::add(errors, std::move(place), std::move(message)); }
 };
+
+// The library keeps no columns: gives each element its place, in the order of the document. Returns whether the library
+// and the scanner have seen the same elements, which they always should.
+bool put_places(tinyxml2::XMLElement* root, XmlPlaces& places) {
+  std::size_t next = 0;
+  for (tinyxml2::XMLNode* node = root; node;) {
+    if (node->ToElement()) {
+      if (next == places.elements.size()) return false;
+      node->SetUserData(&places.elements[next++]);
+    }
+    if (node->FirstChild()) {
+      node = node->FirstChild();
+      continue;
+    }
+    while (node && node != root && !node->NextSibling()) node = node->Parent();
+    node = node && node != root ? node->NextSibling() : nullptr;
+  }
+  return next == places.elements.size();
+}
 
 std::string tag_text(const std::string& tag) { return "<" + tag + ">"; }
 
 Node Reader::element(const tinyxml2::XMLElement& xml, const ElementRule& rule) {
   Node node;
   node.rule = &rule;
-  node.place = {file, xml.GetLineNum(), columns.element(xml.GetLineNum(), xml.Name())};
+  node.place = at(mark(xml).at);
   attributes(xml, node);
   content(xml, node);
   child_counts(node);
   return node;
+}
+
+// Editors find the schema by two attributes of the root.
+bool names_the_schema(const tinyxml2::XMLElement& xml, const tinyxml2::XMLAttribute& attribute) {
+  if (!xml.Parent() || !xml.Parent()->ToDocument()) return false;
+  const char* const instance = xml.Attribute("xmlns:xsi");
+  if (!instance || trimmed(instance) != "http://www.w3.org/2001/XMLSchema-instance") return false;
+  const std::string_view name = attribute.Name();
+  return name == "xmlns:xsi" || name == "xsi:noNamespaceSchemaLocation";
 }
 
 void Reader::attributes(const tinyxml2::XMLElement& xml, Node& node) {
@@ -43,16 +78,17 @@ void Reader::attributes(const tinyxml2::XMLElement& xml, Node& node) {
   std::vector<std::string> known;
   for (const AttributeRule& rule : rules) known.push_back(rule.name);
 
+  std::size_t number = mark(xml).first_attribute;
   for (const auto* attribute = xml.FirstAttribute(); attribute; attribute = attribute->Next()) {
     const std::string name = attribute->Name();
-    // Editors put these on the root to find the schema.
-    if (name == "xmlns" || name.starts_with("xmlns:") || name.starts_with("xsi:") || name == "xml:lang") continue;
-    const int line = attribute->GetLineNum();
-    const base::Place place{file, line, columns.attribute(line, name, line == node.place.line ? node.place.column : 0)};
+    const base::Place place = at(places.attributes.at(number++));
+    if (names_the_schema(xml, *attribute)) continue;
     std::size_t i = 0;
     while (i < rules.size() && rules[i].name != name) ++i;
     if (i == rules.size()) {
-      error(place, tag_text(node.rule->tag) + " has no attribute \"" + name + "\"" + base::did_you_mean(name, known));
+      if (full()) continue;
+      error(place, tag_text(node.rule->tag) + " has no attribute \"" + base::shortened(name, 60) + "\"" +
+                       base::did_you_mean(name, known));
       continue;
     }
     const AttributeRule& rule = rules[i];
@@ -103,9 +139,9 @@ void Reader::content(const tinyxml2::XMLElement& xml, Node& node) {
     if (const auto* text = child->ToText()) {
       if (!node.rule->children.empty() || node.rule->text == ValueType::none) {
         const std::string stray = trimmed(text->Value());
-        if (!stray.empty()) {
+        if (!stray.empty() || text->CData()) {
           error({file, text->GetLineNum(), 0},
-                tag_text(node.rule->tag) + " takes no text, found \"" + stray.substr(0, 40) + "\"");
+                tag_text(node.rule->tag) + " takes no text, found \"" + base::shortened(stray, 40) + "\"");
         }
       } else {
         node.text += text->Value();
@@ -122,8 +158,8 @@ void Reader::content(const tinyxml2::XMLElement& xml, Node& node) {
       node.children.push_back(element(*below, *rule));
       continue;
     }
-    const int line = below->GetLineNum();
-    std::string message = tag_text(below->Name()) + " is unknown inside " + tag_text(node.rule->tag);
+    if (full()) continue;
+    std::string message = tag_text(base::shortened(below->Name(), 60)) + " is unknown inside " + tag_text(node.rule->tag);
     const std::string hint = base::did_you_mean(below->Name(), known);
     if (!hint.empty()) {
       message += hint;
@@ -133,7 +169,7 @@ void Reader::content(const tinyxml2::XMLElement& xml, Node& node) {
       message += "; known are ";
       for (std::size_t i = 0; i < known.size(); ++i) message += (i ? ", " : "") + tag_text(known[i]);
     }
-    error({file, line, columns.element(line, below->Name())}, std::move(message));
+    error(at(mark(*below).at), std::move(message));
   }
 
   node.text = trimmed(node.text);
@@ -166,31 +202,6 @@ void Reader::child_counts(Node& node) {
   }
 }
 
-std::string library_message(const tinyxml2::XMLDocument& document) {
-  switch (document.ErrorID()) {
-    case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
-      return "the file has no XML in it";
-    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
-      return "an element is not closed, or closed by another name";
-    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
-      return "an attribute is malformed or stands twice";
-    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
-      return "elements are nested too deep";
-    case tinyxml2::XML_ERROR_PARSING_COMMENT:
-      return "a comment is not closed";
-    case tinyxml2::XML_ERROR_PARSING_CDATA:
-      return "a CDATA section is not closed";
-    case tinyxml2::XML_ERROR_PARSING_ELEMENT:
-      return "an element is malformed";
-    case tinyxml2::XML_ERROR_PARSING_TEXT:
-      return "text outside of an element";
-    case tinyxml2::XML_ERROR_PARSING_DECLARATION:
-      return "the XML declaration is malformed or not at the start";
-    default:
-      return "not well-formed XML";
-  }
-}
-
 }  // namespace
 
 std::optional<Node> parse_xml(const std::string& text, const std::string& file, const Dialect& dialect,
@@ -201,37 +212,38 @@ std::optional<Node> parse_xml(const std::string& text, const std::string& file, 
                           std::to_string(most_config_bytes)});
     return std::nullopt;
   }
-  if (auto problem = check_xml_text(text, file)) {
-    errors.push_back(*problem);
+  XmlPlaces places;
+  try {
+    places = scan_xml(text, file);
+  } catch (const base::ConfigError& error) {
+    errors.insert(errors.end(), error.diagnostics().begin(), error.diagnostics().end());
     return std::nullopt;
   }
   tinyxml2::XMLDocument document;
   document.Parse(text.data(), text.size());
-  if (document.Error()) {
-    errors.push_back({{file, document.ErrorLineNum(), 0}, library_message(document)});
+  if (document.ErrorID() == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) {
+    errors.push_back({{file, 0, 0}, "the file has no XML in it"});
+    return std::nullopt;
+  }
+  if (document.ErrorID() == tinyxml2::XML_ERROR_PARSING_DECLARATION) {
+    errors.push_back({{file, document.ErrorLineNum(), 0}, "an instruction (<?...?>) after the first element or comment"});
     return std::nullopt;
   }
 
   const ElementRule& rule = dialect.rule(root);
-  const tinyxml2::XMLElement* first = document.RootElement();
-  if (!first) {
+  if (!document.Error() && !document.RootElement()) {
     errors.push_back({{file, 1, 0}, "the file has no element; expected " + tag_text(rule.tag)});
     return std::nullopt;
   }
-  if (first->NextSiblingElement()) {
-    errors.push_back({{file, first->NextSiblingElement()->GetLineNum(), 0}, "a second root element; XML has one"});
+  if (document.Error() || !put_places(document.RootElement(), places)) {
+    errors.push_back({{file, document.ErrorLineNum(), 0}, "not well-formed XML"});
     return std::nullopt;
   }
-  for (const auto* node = document.FirstChild(); node; node = node->NextSibling()) {
-    if (node->ToText() && !trimmed(node->Value()).empty()) {
-      errors.push_back({{file, node->GetLineNum(), 0}, "text outside of the root element"});
-      return std::nullopt;
-    }
-  }
-  Reader reader{file, dialect, errors, ColumnFinder(text)};
+  const tinyxml2::XMLElement* first = document.RootElement();
+  Reader reader{file, dialect, errors, places};
   if (rule.tag != first->Name()) {
-    errors.push_back({{file, first->GetLineNum(), reader.columns.element(first->GetLineNum(), first->Name())},
-                      "the root element is " + tag_text(std::string(first->Name()).substr(0, 60)) + "; expected " +
+    errors.push_back({reader.at(places.elements.front().at),
+                      "the root element is " + tag_text(base::shortened(first->Name(), 60)) + "; expected " +
                           tag_text(rule.tag)});
     return std::nullopt;
   }

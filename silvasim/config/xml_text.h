@@ -1,7 +1,12 @@
-// What the XML library lets pass and a careful reader must not: encodings, entities and characters.
+// What the XML library lets pass or words badly, and a careful reader must not: whether a text is well-formed XML 1.0, and
+// where its elements and attributes stand.
+//
+// Promise: what passes is taken by any XML parser. Besides, no document type declaration (and so no entity of one's own),
+// no encoding but UTF-8, at most `most_depth` levels, `most_elements` elements and `most_attributes` attributes each, for
+// the library needs time in the square of those.
+// Cost: linear in the text.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,27 +14,23 @@
 
 namespace silvasim::config {
 
-// The first thing that is wrong with the text as XML characters, or nothing.
-std::optional<base::Diagnostic> check_xml_text(const std::string& text, const std::string& file);
+inline constexpr std::size_t most_depth = 100, most_elements = 1'000'000, most_attributes = 100;
 
-// Finds columns, which the XML library does not report. Elements must be asked for in document order.
-class ColumnFinder {
- public:
-  explicit ColumnFinder(const std::string& text);
-
-  // Column of `<tag` in the line, from 1; 0 where it is not found.
-  int element(int line, const std::string& tag);
-
-  // Column of the attribute in the line, at or after `from_column`.
-  int attribute(int line, const std::string& name, int from_column) const;
-
- private:
-  std::string_view line_text(int line) const;
-
-  const std::string& text_;
-  std::vector<std::size_t> starts_;
-  int last_line_ = 0;
-  std::size_t searched_ = 0;  // up to where in the last line elements were found already
+struct TextPlace {
+  int line = 1, column = 1;  // in bytes, from 1
 };
+
+// In the order of the document.
+struct XmlPlaces {
+  struct Element {
+    TextPlace at;
+    std::size_t first_attribute = 0;  // index into `attributes`
+  };
+  std::vector<Element> elements;
+  std::vector<TextPlace> attributes;
+};
+
+// Errors: base::ConfigError with the first thing that is wrong. A text without any element passes.
+XmlPlaces scan_xml(const std::string& text, const std::string& file);
 
 }  // namespace silvasim::config

@@ -82,6 +82,12 @@ void SiteColumns::sample(const Network& network, const fields::FieldSet& fields)
   }
 }
 
+std::uint64_t SiteColumns::count_inside(const std::uint8_t* flagged) const {
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < outside.size(); ++i) count += !outside[i] && (!flagged || flagged[i]);
+  return count;
+}
+
 Network::Block SiteColumns::block() const {
   Network::Block block;
   block.count = x.size();
@@ -102,6 +108,8 @@ Suitability evaluate_sites(const Network& network, const Ground& ground, const b
   const std::vector<std::size_t> starts = runs_of_positions(ground.offsets);
   const std::size_t runs = starts.size() - 1;
   std::atomic<std::size_t> done{0};
+  std::vector<std::atomic<std::uint64_t>> no_data(network.fields().size());
+  std::atomic<std::uint64_t> inside{0};
 
   for (std::size_t stage = 0; stage < network.stages(); ++stage) {
     std::vector<float> most(runs, 0.0f);
@@ -112,7 +120,14 @@ Suitability evaluate_sites(const Network& network, const Ground& ground, const b
       for_each_block(ground, starts[r], starts[r + 1], columns, [&](std::uint64_t first) {
         columns.sample(network, ground.fields);
         float* probability = suitability.probability.data() + first * species;
-        network.run(stage, columns.block(), scratch, probability);
+        const Network::Block block = columns.block();
+        network.run(stage, block, scratch, probability);
+        if (stage == 0) {
+          inside += columns.count_inside(nullptr);
+          for (std::size_t k = 0; k < no_data.size(); ++k) {
+            if (block.no_data[k]) no_data[k] += columns.count_inside(block.no_data[k]);
+          }
+        }
         for (std::size_t i = 0; i < columns.x.size(); ++i) {
           if (columns.outside[i]) std::fill_n(probability + i * species, species, excluded);
         }
@@ -128,6 +143,8 @@ Suitability evaluate_sites(const Network& network, const Ground& ground, const b
     suitability.maxima.push_back(largest);
     if (largest > 0) divide(suitability.probability, largest);
   }
+  suitability.inside = inside;
+  suitability.no_data.assign(no_data.begin(), no_data.end());
   return suitability;
 }
 

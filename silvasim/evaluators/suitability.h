@@ -10,25 +10,18 @@
 #include <vector>
 
 #include "silvasim/base/progress.h"
+#include "silvasim/evaluators/ground.h"
 #include "silvasim/evaluators/network.h"
-#include "silvasim/fields/field_set.h"
-#include "silvasim/tiles/tile_set.h"
 
 namespace silvasim::evaluators {
-
-// The land as the layer sees it: which sites there are, and where.
-struct Ground {
-  const tiles::TileSet& tile_set;
-  const tiles::Tiling& tiling;
-  base::Point north_west;                     // scene point of the tiling's corner
-  const std::vector<std::uint64_t>& offsets;  // first site of each tile position, and the total
-  const fields::FieldSet& fields;
-};
 
 struct Suitability {
   std::size_t species = 0;
   std::vector<float> probability;
   std::vector<float> maxima;  // what each NormalizeEvaluator divided by (0: nothing to divide)
+  // Of the sites inside the scene: how many, and on how many each of Network::fields() has no data.
+  std::uint64_t inside = 0;
+  std::vector<std::uint64_t> no_data;
 };
 
 Suitability evaluate_sites(const Network& network, const Ground& ground, const base::Progress& progress = {});
@@ -44,6 +37,8 @@ struct SiteColumns {
   // Samples the network's fields at the points.
   void sample(const Network& network, const fields::FieldSet& fields);
   Network::Block block() const;
+  // Sites inside the scene, of those that are flagged; null: of all.
+  std::uint64_t count_inside(const std::uint8_t* flagged) const;
 };
 
 }  // namespace silvasim::evaluators

@@ -7,6 +7,7 @@
 #include "silvasim/export/cover.h"
 #include "silvasim/export/layout.h"
 #include "silvasim/export/png_bytes.h"
+#include "silvasim/export/text.h"
 
 namespace silvasim::exports {
 
@@ -35,6 +36,13 @@ std::string world_file(const Layout& layout) {
                      view.x_m(0.5 - layout.map_x), view.y_m(0.5 - layout.map_y));
 }
 
+// What GDAL keeps beside an image; written without a CRS too, so that none of an older picture stays.
+std::string auxiliary_file(const std::string& crs_wkt) {
+  const std::string crs =
+      crs_wkt.empty() ? "" : "  <SRS>" + xml_escaped(crs_wkt) + "</SRS>\n";
+  return "<PAMDataset>\n" + crs + "</PAMDataset>\n";
+}
+
 }  // namespace
 
 void write_png(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& options,
@@ -47,17 +55,21 @@ void write_png(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& opti
   const Pixels map = draw_map(ecosystem, census, layout.view, ground, options.subject);
 
   // Write all before any gets its name.
-  std::filesystem::path world_path = path, crs_path = path;
-  base::NewFile picture(path), world(world_path.replace_extension(".pgw"));
+  const std::vector<std::filesystem::path> beside = files_beside(path);
+  base::NewFile picture(path), world(beside[0]), crs(beside[1]);
   picture.write(png_of(layout, map));
   world.write(world_file(layout));
-  if (!ecosystem.crs_wkt.empty()) {
-    base::NewFile crs(crs_path.replace_extension(".prj"));
-    crs.write(ecosystem.crs_wkt);
-    crs.commit();
-  }
+  crs.write(auxiliary_file(ecosystem.crs_wkt));
   world.commit();
+  crs.commit();
   picture.commit();
+}
+
+std::vector<std::filesystem::path> files_beside(const std::filesystem::path& picture) {
+  const std::string extension = picture.extension().string();
+  if (extension != ".png" && extension != ".PNG") return {};
+  std::filesystem::path world = picture, auxiliary = picture;
+  return {world.replace_extension(".pgw"), auxiliary += ".aux.xml"};
 }
 
 void write_preview(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& options,

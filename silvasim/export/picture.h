@@ -39,11 +39,15 @@ struct PreviewOptions {
   std::size_t most_circles = 200'000;  // SVG: more plants in view than this are aggregated
 };
 
-// Beside f.png come the world file f.pgw, which georeferences the whole image with its margins, and f.prj with the CRS.
+// Beside f.png come the world file f.pgw, which georeferences the whole image with its margins, and f.png.aux.xml with the
+// CRS, as GDAL and QGIS read it.
 void write_png(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& options, const std::filesystem::path& path);
 
 // One group a species, named for Inkscape's layers and, by its id, for programs: "species-picea-abies".
 void write_svg(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& options, const std::filesystem::path& path);
+
+// The files that come beside a picture of that name.
+std::vector<std::filesystem::path> files_beside(const std::filesystem::path& picture);
 
 // By the name's extension, .png or .svg.
 void write_preview(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& options,

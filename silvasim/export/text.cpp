@@ -12,24 +12,6 @@ namespace {
 
 constexpr const char* thin_space = "\u2009";
 
-// Length of the UTF-8 character at `i`, or 0 where the bytes are none (overlong, surrogate, out of range, cut).
-std::size_t character_length(const std::string& text, std::size_t i) {
-  const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
-  const unsigned first = byte(i);
-  if (first < 0x80) return 1;
-  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : first >= 0xC0 ? 2 : 0;
-  if (length == 0 || first > 0xF4) return 0;
-  unsigned code = first & (0xFFu >> (length + 1));
-  for (std::size_t k = 1; k < length; ++k) {
-    if ((byte(i + k) & 0xC0) != 0x80) return 0;
-    code = code << 6 | (byte(i + k) & 0x3F);
-  }
-  const unsigned least = length == 2 ? 0x80 : length == 3 ? 0x800 : 0x10000;
-  const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-  const bool no_character = (code & 0xFFFE) == 0xFFFE || code > 0x10FFFF;  // XML forbids U+FFFE and U+FFFF
-  return code < least || surrogate || no_character ? 0 : length;
-}
-
 struct Ruler {
   using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
   using Context = std::unique_ptr<cairo_t, decltype(&cairo_destroy)>;
@@ -64,7 +46,7 @@ std::string fitted(const std::string& text, const Font& font, double most_px) {
   // Bisect the number of characters that fit before the ellipsis.
   std::vector<std::size_t> ends = {0};
   while (ends.back() < text.size()) {
-    ends.push_back(ends.back() + std::max<std::size_t>(1, character_length(text, ends.back())));
+    ends.push_back(ends.back() + std::max<std::size_t>(1, base::character_length(text, ends.back())));
   }
   std::size_t fits = 0, too_long = ends.size();
   while (too_long - fits > 1) {
@@ -95,23 +77,6 @@ std::vector<std::string> wrapped(const std::string& text, const Font& font, doub
   if (!line.empty()) lines.push_back(line);
   for (std::string& each : lines) each = fitted(each, font, most_px);
   return lines;
-}
-
-std::string printable(const std::string& text) {
-  std::string clean;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = character_length(text, i);
-    const unsigned char first = static_cast<unsigned char>(text[i]);
-    if (length == 1 && (first == '\n' || first == '\r' || first == '\t')) {
-      clean += ' ';
-    } else if (length == 0 || first < 0x20 || first == 0x7F) {
-      clean += "\uFFFD";
-    } else {
-      clean.append(text, i, length);
-    }
-    i += std::max<std::size_t>(1, length);
-  }
-  return clean;
 }
 
 std::string xml_escaped(const std::string& text) {
@@ -168,7 +133,8 @@ std::string length(double metres) {
     const std::size_t point = std::min(digits.find('.'), digits.size());
     return grouped(static_cast<std::uint64_t>(std::stoull(digits.substr(0, point)))) + digits.substr(point);
   };
-  if (metres >= 999.5 && metres < 1e15) return number(metres / 1000) + " km";
+  if (!(metres < 1e15)) return fmt::format("{:.3g} m", metres);
+  if (metres >= 999.5) return number(metres / 1000) + " km";
   if (metres >= 0.995) return number(metres) + " m";
   if (metres >= 0.01) return number(metres * 100) + " cm";
   return fmt::format("{:.3g} m", metres);

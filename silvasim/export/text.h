@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "silvasim/base/words.h"
+
 namespace silvasim::exports {
 
 struct Font {
@@ -27,14 +29,13 @@ std::string fitted(const std::string& text, const Font& font, double most_px);
 // Breaks at spaces; a single word that is too long is cut.
 std::vector<std::string> wrapped(const std::string& text, const Font& font, double most_px);
 
-// Valid UTF-8 without control characters: what is neither becomes U+FFFD, and line ends and tabs become spaces.
-std::string printable(const std::string& text);
+using base::printable;
 
 std::string xml_escaped(const std::string& text);  // printable, with &, <, >, " and ' as entities
 
 std::string grouped(std::uint64_t number);         // "1 234 567" with thin spaces
 std::string grouped(double number, int decimals);  // "-1 234.50" with a true minus
-std::string length(double metres);                 // "250 m", "1.5 km", "20 cm"
+std::string length(double metres);                 // "250 m", "1.5 km", "20 cm"; any double
 std::string percent(double share);                 // "12.3 %", "< 0.1 %"
 
 // The largest of 1, 2 and 5 times a power of ten that is not larger than `most` (> 0).

@@ -27,8 +27,9 @@ NeighbourhoodBlock::Result NeighbourhoodBlock::run(int column, int row, int pass
   origin_.last_column = std::min(origin_.first_column + layout.block_tiles, shared_.ground.tiling.columns);
   origin_.last_row = std::min(origin_.first_row + layout.block_tiles, shared_.ground.tiling.rows);
 
-  load(population, pass);
-  weigh_surroundings(population);
+  population_ = &population;
+  load(pass);
+  weigh_surroundings();
   surrounded_ = probability_;
   if (pass > 0) weigh_last_pass();
   for (std::size_t i = 0; i < x_.size(); ++i) update(i);
@@ -54,7 +55,7 @@ void NeighbourhoodBlock::for_sites_of_tile(int column, int row, Visit&& visit) c
   }
 }
 
-void NeighbourhoodBlock::load(const Population& population, int pass) {
+void NeighbourhoodBlock::load(int pass) {
   const std::size_t species = shared_.suitability.species;
   const int cells = shared_.layout.cells;
   const auto cell_m = static_cast<float>(shared_.layout.cell_m);
@@ -73,7 +74,8 @@ void NeighbourhoodBlock::load(const Population& population, int pass) {
       for_sites_of_tile(column, row, [&](float x, float y, float radius, std::uint64_t index, std::uint32_t site) {
         const int i = std::clamp(static_cast<int>(x / cell_m), 0, cells - 1);
         const int j = std::clamp(static_cast<int>(y / cell_m), 0, cells - 1);
-        const auto cell = static_cast<std::uint32_t>(j * cells + i);
+        const auto cell =
+            static_cast<std::uint32_t>(j) * static_cast<std::uint32_t>(cells) + static_cast<std::uint32_t>(i);
         ++cell_start_[cell + 1];
         found.push_back(
             {x, y, radius, cell, index, {static_cast<std::uint32_t>(column), static_cast<std::uint32_t>(row), site}});
@@ -86,7 +88,6 @@ void NeighbourhoodBlock::load(const Population& population, int pass) {
   for (auto* column : {&x_, &y_, &radius_m_, &certainty_, &chosen_}) column->resize(count);
   index_.resize(count);
   key_.resize(count);
-  cell_of_.resize(count);
   probability_.resize(count * species);
   last_plant_.resize(count);
   candidate_.assign(count, ecosystem::no_plant);
@@ -98,10 +99,9 @@ void NeighbourhoodBlock::load(const Population& population, int pass) {
     radius_m_[i] = site.radius;
     index_[i] = site.index;
     key_[i] = site.key;
-    cell_of_[i] = site.cell;
     certainty_[i] = 0;
     chosen_[i] = 0;
-    last_plant_[i] = population.plants[site.index];
+    last_plant_[i] = population_->plants[site.index];
     std::copy_n(shared_.suitability.probability.data() + site.index * species, species,
                 probability_.data() + i * species);
   }
@@ -113,8 +113,8 @@ void NeighbourhoodBlock::load(const Population& population, int pass) {
   }
 }
 
-// Plants of other blocks act on this one: those fixed before it in this pass, and the others of the last pass.
-void NeighbourhoodBlock::weigh_surroundings(const Population& population) {
+template <typename Visit>
+void NeighbourhoodBlock::for_plants_around(Visit&& visit) const {
   const evaluators::Ground& ground = shared_.ground;
   const auto side = static_cast<float>(ground.tile_set.side_m);
   const float reach = shared_.most_reach_m;
@@ -133,11 +133,18 @@ void NeighbourhoodBlock::weigh_surroundings(const Population& population) {
       if (inside) continue;
       for_sites_of_tile(column, row, [&](float x, float y, float radius, std::uint64_t index, std::uint32_t) {
         if (x < -reach || y < -reach || x > width + reach || y > height + reach) return;
-        const ecosystem::PlantId plant = population.plants[index];
-        if (plant != ecosystem::no_plant) act(x, y, radius, plant, nobody);
+        const ecosystem::PlantId plant = population_->plants[index];
+        if (plant != ecosystem::no_plant) visit(x, y, radius, plant, index);
       });
     }
   }
+}
+
+// Plants of other blocks act on this one: those fixed before it in this pass, and the others of the last pass.
+void NeighbourhoodBlock::weigh_surroundings() {
+  for_plants_around([&](float x, float y, float radius, ecosystem::PlantId plant, std::uint64_t) {
+    act(x, y, radius, plant, nobody);
+  });
 }
 
 void NeighbourhoodBlock::weigh_last_pass() {
@@ -241,6 +248,7 @@ void NeighbourhoodBlock::fix(std::size_t site, int pass, Result& result) {
   const std::size_t count = shared_.suitability.species;
   const Choice choice = choose(probability_.data() + site * count, count, shared_.layer.selection, shared_.layer.chance,
                                shared_.seed, key_[site]);
+  if (shared_.watch == index_[site]) result.acting = acting_on(site);
   certainty_[site] = -1;
   chosen_[site] = choice.probability;
   candidate_[site] = choice.candidate;
@@ -254,6 +262,22 @@ void NeighbourhoodBlock::fix(std::size_t site, int pass, Result& result) {
   } else if (shared_.most_reach_m > 0) {
     weigh_again(x_[site], y_[site]);
   }
+}
+
+// Those whose influence is in the site's current probabilities.
+std::vector<ActingPlant> NeighbourhoodBlock::acting_on(std::size_t site) const {
+  std::vector<ActingPlant> acting;
+  const auto add = [&](float x, float y, float radius_m, ecosystem::PlantId plant, std::uint64_t index) {
+    if (!shared_.influences.acts(plant)) return;
+    const float dx = x - x_[site], dy = y - y_[site], distance = std::sqrt(dx * dx + dy * dy);
+    const float strength = shared_.influences.field(plant, radius_m).at(distance);
+    if (strength > 0) acting.push_back({index, plant, distance, strength});
+  };
+  for_plants_around(add);
+  for (std::size_t i = 0; i < x_.size(); ++i) {
+    if (i != site && plant_[i] != ecosystem::no_plant) add(x_[i], y_[i], radius_m_[i], plant_[i], index_[i]);
+  }
+  return acting;
 }
 
 void NeighbourhoodBlock::store(Population& population) const {

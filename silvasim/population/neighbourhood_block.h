@@ -8,6 +8,7 @@
 #include "silvasim/base/random.h"
 #include "silvasim/population/choice.h"
 #include "silvasim/population/influence_field.h"
+#include "silvasim/population/neighbourhoods.h"
 #include "silvasim/population/population.h"
 
 namespace silvasim::population {
@@ -29,6 +30,7 @@ struct CompetitionGround {
   BlockLayout layout;
   std::uint64_t seed = 0;
   float most_reach_m = 0;
+  std::optional<std::uint64_t> watch;
 };
 
 // The buffers of one thread; used for block after block.
@@ -39,6 +41,7 @@ class NeighbourhoodBlock {
   struct Result {
     std::uint64_t fixings = 0;
     std::uint64_t changed = 0;
+    std::optional<std::vector<ActingPlant>> acting;  // on the watched site, where it is in this block
   };
 
   // Runs pass `pass` (from 0) of block (column, row) and writes its plants into `population`, from which it also reads
@@ -50,12 +53,13 @@ class NeighbourhoodBlock {
     int first_column = 0, first_row = 0, last_column = 0, last_row = 0;  // tiles, the last excluded
   };
 
-  void load(const Population& population, int pass);
-  void weigh_surroundings(const Population& population);
+  void load(int pass);
+  void weigh_surroundings();
   void weigh_last_pass();
   Result fix_all(base::Stream stream, int pass);
   void fix(std::size_t site, int pass, Result& result);
   void store(Population& population) const;
+  std::vector<ActingPlant> acting_on(std::size_t site) const;
 
   // Lets a plant at local (x, y) act on the block's unfixed sites but `self`.
   void act(float x, float y, float radius_m, ecosystem::PlantId species, std::size_t self);
@@ -69,10 +73,15 @@ class NeighbourhoodBlock {
   template <typename Visit>
   void for_sites_of_tile(int column, int row, Visit&& visit) const;
 
+  // The same for the plants that stand around the block, as far as they may reach into it.
+  template <typename Visit>
+  void for_plants_around(Visit&& visit) const;
+
   template <typename Visit>
   void for_sites_near(float x, float y, float reach, Visit&& visit) const;
 
   const CompetitionGround& shared_;
+  const Population* population_ = nullptr;  // as it is while the block runs
   Origin origin_;
 
   // Columns over the block's sites, cell by cell, cells row by row from the north. Local metres: x from the block's west
@@ -88,7 +97,6 @@ class NeighbourhoodBlock {
   std::vector<std::uint32_t> cell_start_;
   std::vector<std::uint32_t> unfixed_;  // a cell: how many
   std::vector<std::uint32_t> live_;     // cells that hold unfixed sites
-  std::vector<std::uint32_t> cell_of_;
 };
 
 }  // namespace silvasim::population

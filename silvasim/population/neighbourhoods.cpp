@@ -30,7 +30,8 @@ BlockLayout lay_out(const evaluators::Ground& ground, double cell_m, double reac
   const int across = std::max(ground.tiling.columns, ground.tiling.rows);
   int cells_a_tile = 0, tiles_a_cell = 1;
   if (cell_m <= side) {
-    constexpr double most_cells_a_tile = 1024;
+    // A cell much smaller than a site holds none: it would cost memory and decide nothing.
+    const double most_cells_a_tile = std::clamp(4 * side * std::sqrt(density), 1.0, 1024.0);
     cells_a_tile = static_cast<int>(std::clamp(std::round(side / cell_m), 1.0, most_cells_a_tile));
     layout.cell_m = side / cells_a_tile;
     layout.block_tiles = std::max(1, static_cast<int>(std::lround(static_cast<double>(cells_a_block) / cells_a_tile)));
@@ -58,7 +59,7 @@ Competition compete(const evaluators::Suitability& suitability, const evaluators
   const float reach = influences.most_reach(static_cast<float>(ground.tile_set.most_radius_m));
   const BlockLayout layout =
       lay_out(ground, layer.neighbourhoods.cell_m, static_cast<double>(reach), options.one_block);
-  const CompetitionGround shared{suitability, ground, layer, influences, layout, seed, reach};
+  const CompetitionGround shared{suitability, ground, layer, influences, layout, seed, reach, options.watch};
 
   Competition competition;
   Population& population = competition.population;
@@ -81,7 +82,8 @@ Competition compete(const evaluators::Suitability& suitability, const evaluators
       base::parallel_for(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), [&](std::size_t k) {
         const int column = first_column + 2 * static_cast<int>(k % static_cast<std::size_t>(columns));
         const int row = first_row + 2 * static_cast<int>(k / static_cast<std::size_t>(columns));
-        const auto result = blocks.local().run(column, row, pass, population);
+        auto result = blocks.local().run(column, row, pass, population);
+        if (result.acting) competition.acting = std::move(*result.acting);  // one block a pass holds the watched site
         changed += result.changed;
         fixings += result.fixings;
         base::report(progress, "neighbours", static_cast<double>(++done) / total);

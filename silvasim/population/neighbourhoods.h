@@ -17,6 +17,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "silvasim/population/population.h"
@@ -34,11 +35,21 @@ struct NeighbourhoodReport {
 
 struct NeighbourhoodOptions {
   bool one_block = false;  // the whole land as one block: the paper's sequential algorithm, for comparison
+  std::optional<std::uint64_t> watch;  // a site, for explanations: which plants acted on it?
+};
+
+// A plant that acted on the watched site.
+struct ActingPlant {
+  std::uint64_t site = 0;  // its own
+  ecosystem::PlantId species = ecosystem::no_plant;
+  float distance_m = 0;
+  float strength = 0;  // of its field at the watched site, in (0,1]
 };
 
 struct Competition {
   Population population;
   NeighbourhoodReport report;
+  std::vector<ActingPlant> acting;  // on the watched site when it was fixed in the last pass
 };
 
 Competition compete(const evaluators::Suitability& suitability, const evaluators::Ground& ground,

@@ -162,6 +162,37 @@ TEST(CommandLine, OutputsThatCannotBeAreRefusedBeforeTheWork) {
   EXPECT_EQ(read(folder / "plants.xml"), before);
 }
 
+TEST_F(Commands, AnEcosystemIsNotOverwrittenByWhatIsMadeOfIt) {
+  const Folder folder;
+  const std::string before = read(grown());
+  write(folder / "w.silva", before);
+  write(folder / "w.png", before);
+  EXPECT_NE(silvasim({"export", folder / "w.silva", "--to", "csv", "-o", folder / "w.silva", "-q"}).code, 0);
+  EXPECT_NE(silvasim({"preview", folder / "w.png", "-o", folder / "w.png", "-q"}).code, 0);
+  EXPECT_EQ(read(folder / "w.silva"), before);
+  EXPECT_EQ(read(folder / "w.png"), before);
+}
+
+// A map brings files along; they must not fall on each other, nor on what belongs to a data field.
+TEST(CommandLine, FilesBesideAMapAreOutputsToo) {
+  const Folder folder;
+  const std::string example = source("configs/01-first-steps/ecosystem.xml");
+  EXPECT_EQ(silvasim({"run", example, "-o", folder / "a.silva", "--png", folder / "a.png", "--csv", folder / "a.pgw",
+                      "-q"})
+                .code,
+            2);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.silva"));
+}
+
+// Whoever reads the log may have gone, or its disk be full: the work and its exit code stay.
+TEST_F(Commands, WhatCannotBeSaidDoesNotEndTheWork) {
+  const Folder folder;
+  const std::string run = std::string(SILVA_BINARY_DIR) + "/silvasim run '" + scenario() + "' -o '" + (folder / "a.silva") + "' 2>/dev/full";
+  EXPECT_EQ(program({"sh", "-c", run}).code, 0);
+  EXPECT_EQ(program({"sh", "-c", std::string(SILVA_BINARY_DIR) + "/silvasim info nowhere 2>/dev/full"}).code, 1);
+  EXPECT_EQ(program({"sh", "-c", std::string(SILVA_BINARY_DIR) + "/silvasim grow 2>&-"}).code, 2);
+}
+
 TEST(CommandLine, ADamagedEcosystemIsRefused) {
   const Folder folder;
   write(folder / "bad.silva", "not an ecosystem file at all");

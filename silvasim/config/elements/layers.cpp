@@ -13,10 +13,10 @@ std::vector<ElementRule> layer_rules() {
        {within(attribute("side", VT::length, "a tile's side, more than 8 times the largest radius", "200 m"), tiny),
         within(attribute("colours", VT::integer,
                          "edge colours in each direction; 3 and 2 variants: the paper's 18 tiles", "3"),
-               3, 64),
+               3, 16),
         within(attribute("variants", VT::integer,
                          "tiles for each pair of northern and western colour, at most colours - 1", "2"),
-               1, 63),
+               2, 15),
         choice("mode", {"paper", "seamless"},
                "paper: discs may overlap at tile corners, where the weaker plant gives way; seamless: no overlap, but "
                "the corner repeats",

@@ -42,7 +42,8 @@ std::vector<ElementRule> plant_rules() {
        "neighbourhood",
        "How far the plant acts on neighbours.",
        {required(within(
-           attribute("radius", VT::length, "of its field of neighbourhood at scale 1; default: twice the crown's"),
+           attribute("radius", VT::length,
+                     "of its field of neighbourhood at scale 1; without <neighbourhood>: twice the crown's"),
            0))},
        {},
        VT::none,

@@ -1,5 +1,6 @@
 // <MinMax min="0.2" max="0.5"/>: 1 from min to max, both included, else 0.
 #include "silvasim/base/vector_clones.h"
+#include "silvasim/config/value.h"
 #include "silvasim/evaluators/properties/properties.h"
 
 namespace silvasim::evaluators {
@@ -22,7 +23,10 @@ class MinMax final : public Response {
 
 std::unique_ptr<Response> make(const config::Node& node, std::vector<base::Diagnostic>& errors) {
   const double least = node.number("min"), most = node.number("max");
-  if (least > most) errors.push_back({node.place, "<MinMax> reversed: min is above max"});
+  if (least > most) {
+    errors.push_back({node.place, "<MinMax> reversed: min=\"" + config::to_text(least) + "\" is above max=\"" +
+                                      config::to_text(most) + "\""});
+  }
   return std::make_unique<MinMax>(static_cast<float>(least), static_cast<float>(most));
 }
 

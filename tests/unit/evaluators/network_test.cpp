@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <random>
 
 #include "silvasim/base/parallel.h"
 #include "silvasim/evaluators/trace.h"
@@ -49,6 +52,23 @@ std::vector<std::string> pipelines() {
 
 const std::string tiles = "<tiles side=\"80 m\"><radii least=\"2 m\" most=\"6 m\"/></tiles>";
 
+// A land whose sites fill several of the runs of some 8,000 that threads work on, and whose probabilities several of the
+// pieces of 2^18 in which they are normalized. Positions are multiples of 1/64 m, so that they are exact in any frame.
+constexpr double large_side = 3200;
+
+Scene large_scene(const std::string& pipeline, const std::string& with_plants = plants,
+                  const FieldFunctions& functions = {wave, holed}) {
+  Scene scene = make_scene(tiles + pipeline, with_plants, functions, large_side);
+  for (tiles::Tile& tile : scene.tile_set.tiles) {
+    for (tiles::Site& site : tile.sites) {
+      site.x_m = std::floor(site.x_m * 64) / 64;
+      site.y_m = std::floor(site.y_m * 64) / 64;
+    }
+  }
+  EXPECT_GT(scene.offsets.back(), 90000u) << "too few sites for runs and pieces to be many";
+  return scene;
+}
+
 TEST(Network, ProbabilitiesStayWithinBounds) {
   for (const std::string& pipeline : pipelines()) {
     const Scene scene = make_scene(tiles + pipeline, plants, {wave, holed});
@@ -71,24 +91,89 @@ TEST(Network, NormalizeMakesTheLargestExactlyOne) {
   EXPECT_EQ(*std::max_element(result.probability.begin(), result.probability.end()), 1.0f);
 }
 
+// B1: over all sites, wherever the largest stands.
+TEST(Network, NormalizeFindsTheLargestOfAllSites) {
+  const std::string linear =
+      "<plant name=\"only\"><property name=\"A\"><Table><point x=\"0\" y=\"0\"/><point x=\"1\" "
+      "y=\"1\"/></Table></property></plant>";
+  const std::string raw = "<pipeline><ConstantEvaluator value=\"0.3\"/>" + function("a", "A");
+  for (const double summit : {0.1, 0.5, 0.9}) {  // from south to north; sites are listed from the north
+    const auto hill = [&](double x, double y) {
+      return 0.1 + 0.8 * std::exp(-std::hypot(x / large_side - 0.5, y / large_side - summit));
+    };
+    const Scene scene = large_scene(raw + "<NormalizeEvaluator/></pipeline>", linear, {hill});
+    const Scene bare = large_scene(raw + "</pipeline>", linear, {hill});
+    const Suitability result = evaluate_sites(Network(scene.scenario, 0), scene.ground());
+    const Suitability before = evaluate_sites(Network(bare.scenario, 0), bare.ground());
+    const auto largest = std::max_element(before.probability.begin(), before.probability.end());
+    EXPECT_NEAR(static_cast<double>(largest - before.probability.begin()) / static_cast<double>(scene.offsets.back()),
+                1 - summit, 0.05);
+    ASSERT_EQ(result.maxima, std::vector{*largest});
+    for (std::size_t i = 0; i < result.probability.size(); ++i) {
+      ASSERT_EQ(result.probability[i], before.probability[i] / *largest) << "site " << i;
+    }
+    EXPECT_EQ(*std::max_element(result.probability.begin(), result.probability.end()), 1.0f);
+  }
+}
+
 TEST(Network, NormalizeLeavesAllZeroZero) {
   const Scene scene =
       make_scene(tiles + "<pipeline><ConstantEvaluator value=\"0\" floor=\"0\"/><NormalizeEvaluator/></pipeline>",
                  plants, {wave, holed});
   const Suitability result = evaluate_sites(Network(scene.scenario, 0), scene.ground());
-  for (const float p : result.probability) ASSERT_TRUE(p == 0 || p == excluded);
+  ASSERT_GT(result.probability.size(), 1000u);
+  for (const float p : result.probability) ASSERT_EQ(p, 0.0f);  // all sites lie inside and nothing excludes
+  EXPECT_EQ(result.maxima, std::vector{0.0f});
+}
+
+// B1: the order of the sites changes nothing. All sites of the land as one tile in a random order are a single run, whose
+// blocks hold other sites.
+TEST(Network, TheOrderOfSitesDoesNotMatter) {
+  for (const std::string& pipeline : pipelines()) {
+    const Scene scene = large_scene(pipeline);
+    std::vector<tiles::Site> sites;
+    for (int row = 0; row < scene.tiling.rows; ++row) {
+      for (int column = 0; column < scene.tiling.columns; ++column) {
+        for (tiles::Site site : scene.tile_set.tiles[scene.tiling.at(column, row)].sites) {
+          site.x_m += static_cast<float>(column) * 80;
+          site.y_m += static_cast<float>(scene.tiling.rows - 1 - row) * 80;
+          sites.push_back(site);
+        }
+      }
+    }
+    std::vector<std::size_t> original(sites.size());
+    std::iota(original.begin(), original.end(), 0);
+    std::shuffle(original.begin(), original.end(), std::mt19937(5));
+    tiles::Tile tile;
+    for (const std::size_t i : original) tile.sites.push_back(sites[i]);
+    const tiles::TileSet one_tile{large_side, scene.tile_set.most_radius_m, 1, 1, {tile}};
+    const tiles::Tiling tiling{1, 1, {0}};
+    const std::vector<std::uint64_t> offsets = {0, sites.size()};
+
+    const Network network(scene.scenario, 0);
+    const Suitability result = evaluate_sites(network, scene.ground());
+    const Suitability shuffled =
+        evaluate_sites(network, {one_tile, tiling, scene.ground().north_west, offsets, scene.fields});
+    EXPECT_EQ(shuffled.maxima, result.maxima) << pipeline;
+    for (std::size_t i = 0; i < original.size(); ++i) {
+      for (std::size_t s = 0; s < 3; ++s) {
+        ASSERT_EQ(shuffled.probability[i * 3 + s], result.probability[original[i] * 3 + s]) << pipeline;
+      }
+    }
+  }
 }
 
 TEST(Network, SameBytesWithAnyNumberOfThreads) {
   for (const std::string& pipeline : pipelines()) {
-    const Scene scene = make_scene(tiles + pipeline, plants, {wave, holed});
+    const Scene scene = large_scene(pipeline);
     const Network network(scene.scenario, 0);
-    std::vector<float> first;
+    std::optional<Suitability> first;
     for (int threads : {1, 2, 3, 8}) {
       const base::ThreadLimit limit(threads);
       const Suitability result = evaluate_sites(network, scene.ground());
-      if (first.empty()) first = result.probability;
-      ASSERT_EQ(result.probability, first) << threads << " threads, " << pipeline;
+      if (!first) first = result;
+      ASSERT_EQ(result.probability, first->probability) << threads << " threads, " << pipeline;
+      ASSERT_EQ(result.maxima, first->maxima) << threads << " threads, " << pipeline;
     }
   }
 }

@@ -1,3 +1,5 @@
+#include <gdal_frmts.h>
+#include <gdal_priv.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -5,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <memory>
 
 #include "files.h"
 #include "made_land.h"
@@ -85,14 +88,21 @@ TEST(Png, the_bare_map_is_the_land_and_nothing_else) {
   EXPECT_DOUBLE_EQ(world.y, land.extent.north + world.south / 2);
 }
 
-TEST(Png, comes_with_a_prj_where_the_crs_is_known) {
+TEST(Png, brings_the_crs_for_gdal_where_it_is_known) {
   const Folder folder;
   MadeLand made = few_plants();
   write_png(make_land(made), {}, folder / "local.png");
   made.crs_wkt = testing::utm_10_north();
   write_png(make_land(made), {}, folder / "utm.png");
-  EXPECT_THAT(folder.names(), ::testing::ElementsAre("local.pgw", "local.png", "utm.pgw", "utm.png", "utm.prj"));
-  EXPECT_EQ(content(folder / "utm.prj"), made.crs_wkt);
+  EXPECT_THAT(folder.names(), ::testing::ElementsAre("local.pgw", "local.png", "local.png.aux.xml", "utm.pgw",
+                                                     "utm.png", "utm.png.aux.xml"));
+  // Read as a GIS reads it: by the format's name alone.
+  GDALRegister_PNG();
+  const std::unique_ptr<GDALDataset> picture(GDALDataset::Open((folder / "utm.png").c_str(), GDAL_OF_RASTER));
+  ASSERT_TRUE(picture && picture->GetSpatialRef());
+  EXPECT_STREQ(picture->GetSpatialRef()->GetAuthorityCode(nullptr), "32610");
+  const std::unique_ptr<GDALDataset> local(GDALDataset::Open((folder / "local.png").c_str(), GDAL_OF_RASTER));
+  EXPECT_EQ(local->GetSpatialRef(), nullptr);
 }
 
 TEST(Png, has_the_same_bytes_with_any_number_of_threads) {
