@@ -35,7 +35,7 @@ struct NeighbourhoodReport {
 
 struct NeighbourhoodOptions {
   bool one_block = false;  // the whole land as one block: the paper's sequential algorithm, for comparison
-  std::optional<std::uint64_t> watch;  // a site, for explanations: which plants acted on it?
+  std::optional<std::uint64_t> watch = std::nullopt;  // a site, for explanations: which plants acted on it?
 };
 
 // A plant that acted on the watched site.

@@ -20,10 +20,10 @@ inline std::string plant(const std::string& name, double mean, double model_m = 
          "\" deviation=\"0.5\"/></property></plant>";
 }
 
-inline const std::string pipeline =
+inline const std::string pipeline_element =
     "<pipeline><FunctionEvaluator><datafield>a</datafield><property>A</property></FunctionEvaluator>"
     "<FunctionEvaluator><datafield>b</datafield><property>B</property></FunctionEvaluator></pipeline>";
-inline const std::string tiles = "<tiles side=\"80 m\"><radii least=\"2 m\" most=\"6 m\"/></tiles>";
+inline const std::string tiles_element = "<tiles side=\"80 m\"><radii least=\"2 m\" most=\"6 m\"/></tiles>";
 inline constexpr double tile_m = 80;
 inline const std::string three = plant("one", 0.2) + plant("two", 0.5) + plant("three", 0.8);
 inline const std::string certain = "<establishment chance=\"certain\"/>";
@@ -41,7 +41,9 @@ struct Grown {
 inline Grown grow(const std::string& neighbourhoods, const std::string& plants = three, double side = 1200,
                   const std::string& establishment = certain,
                   const evaluators::FieldFunctions& fields = {wave, bumps}) {
-  Grown grown{evaluators::make_scene(tiles + pipeline + establishment + neighbourhoods, plants, fields, side), {}};
+  Grown grown{
+      evaluators::make_scene(tiles_element + pipeline_element + establishment + neighbourhoods, plants, fields, side),
+      {}};
   grown.suitability = evaluators::evaluate_sites(evaluators::Network(grown.scene.scenario, 0), grown.scene.ground());
   return grown;
 }

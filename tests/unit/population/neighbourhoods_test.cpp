@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
 
 #include "silvasim/base/parallel.h"
 #include "silvasim/population/influence_field.h"
@@ -63,10 +64,10 @@ TEST(Neighbourhoods, ExcludedSpeciesStayExcluded) {
   const std::string two =
       "<plant name=\"low\"><property name=\"A\"><MinMax min=\"0\" max=\"0.5\"/></property></plant>"
       "<plant name=\"high\"><property name=\"A\"><MinMax min=\"0.5\" max=\"0.9\"/></property></plant>";
-  Grown grown{
-      evaluators::make_scene(tiles + lethal + "<establishment chance=\"certain\"/>" + influences(5, "passes=\"2\""),
-                             two, {wave, bumps}, 400),
-      {}};
+  Grown grown{evaluators::make_scene(
+                  tiles_element + lethal + "<establishment chance=\"certain\"/>" + influences(5, "passes=\"2\""), two,
+                  {wave, bumps}, 400),
+              {}};
   grown.suitability = evaluators::evaluate_sites(evaluators::Network(grown.scene.scenario, 0), grown.scene.ground());
   const Competition result = grown.compete(seed);
   std::size_t bare = 0;
