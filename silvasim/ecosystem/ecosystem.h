@@ -31,6 +31,27 @@ struct Species {
   friend bool operator==(const Species&, const Species&) = default;
 };
 
+// How well the place suits each species, wherever its plants stand: for maps, on square cells over the extent.
+struct SuitabilityMap {
+  static constexpr std::uint8_t no_site = 255;
+
+  int columns = 0;  // 0 x 0: not asked for
+  int rows = 0;     // row 0 northernmost
+  double west = 0;
+  double north = 0;
+  double cell_m = 1;
+  // Species by species, each row by row: the mean probability of the cell's sites, before neighbours and corners, times
+  // 254 and rounded; no_site where the cell has none.
+  std::vector<std::uint8_t> shares;
+
+  bool empty() const { return shares.empty(); }
+  const std::uint8_t* of(std::size_t species) const {
+    return shares.data() + species * static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  }
+
+  friend bool operator==(const SuitabilityMap&, const SuitabilityMap&) = default;
+};
+
 // One vegetation layer (trees, shrubs, herbs): its own tiles, tiling and species.
 struct Layer {
   std::string name;
@@ -43,6 +64,7 @@ struct Layer {
   std::vector<PlantId> plants;
   // Growth probability of the standing plant, quantised to 1/65535, in the same order; empty unless asked for.
   std::vector<std::uint16_t> probabilities;
+  SuitabilityMap suitability;  // empty unless asked for
 
   friend bool operator==(const Layer&, const Layer&) = default;
 };

@@ -38,11 +38,11 @@ struct Summary {
   };
   int format_major = 0, format_minor = 0;
   std::uint64_t file_bytes = 0;
-  Ecosystem ecosystem;         // plants, probabilities and heights are left empty
+  Ecosystem ecosystem;         // plants, probabilities of plants and heights are left empty
   std::vector<Plants> plants;  // one a layer
 };
 
-// Takes milliseconds however many plants there are. Checks all that it reads; damage in the plants goes unseen.
+// Unpacks no plants. Checks what it reads, and the checksums of all the rest.
 Summary read_summary(const std::filesystem::path& path);
 
 // From and to memory; `name` stands in messages. What the fuzzer drives.

@@ -19,7 +19,7 @@ namespace {
 using ChunkRef = const Chunk*;
 
 struct LayerChunks {
-  ChunkRef layer = nullptr, species = nullptr, tile_set = nullptr, tiling = nullptr;
+  ChunkRef layer = nullptr, species = nullptr, tile_set = nullptr, tiling = nullptr, suitability = nullptr;
   std::vector<ChunkRef> plants, probabilities;
 };
 
@@ -47,6 +47,7 @@ Place place_of(const Chunk& chunk, SortedChunks& sorted, LayerChunks* layer) {
     if (chunk.type == species_type) return {&layer->species};
     if (chunk.type == tile_set_type) return {&layer->tile_set};
     if (chunk.type == tiling_type) return {&layer->tiling};
+    if (chunk.type == suitability_type) return {&layer->suitability};
     if (chunk.type == plants_type) return {nullptr, &layer->plants};
     if (chunk.type == probabilities_type) return {nullptr, &layer->probabilities};
   }
@@ -54,8 +55,9 @@ Place place_of(const Chunk& chunk, SortedChunks& sorted, LayerChunks* layer) {
 }
 
 bool is_known(ChunkType type) {
-  constexpr std::array known{meta_type,    provenance_type, terrain_type, heights_type, layer_type,
-                             species_type, tile_set_type,   tiling_type,  plants_type,  probabilities_type};
+  constexpr std::array known{meta_type,   provenance_type,    terrain_type,    heights_type,
+                             layer_type,  species_type,       tile_set_type,   tiling_type,
+                             plants_type, probabilities_type, suitability_type};
   return std::ranges::find(known, type) != known.end();
 }
 
@@ -72,7 +74,10 @@ SortedChunks sort_chunks(const ChunkFile& file) {
       sorted.skipped.push_back(&chunk);
       continue;
     }
-    if (chunk.flags != 0) file.fail(chunk, "its flags are " + std::to_string(chunk.flags) + ", they must be 0");
+    const std::uint16_t flags = chunk.type == suitability_type ? flag_optional : 0;
+    if (chunk.flags != flags) {
+      file.fail(chunk, "its flags are " + std::to_string(chunk.flags) + ", they must be " + std::to_string(flags));
+    }
     // Each layer has at least one chunk, so there are no more layers than chunks.
     LayerChunks* layer = nullptr;
     if (chunk.layer != no_layer) {
@@ -211,6 +216,11 @@ struct Opened {
       file.fail(*of.probabilities[0], "the layer says that it has no probabilities");
     }
 
+    if (of.suitability != nullptr) {
+      read_record(file, *of.suitability, [&](ByteReader& from) { get_suitability(from, layer.suitability); });
+      refuse(file, *of.suitability, problem_with(layer.suitability, layer.species.size()));
+    }
+
     plants.sites = counts.sites;
     plants.probabilities = counts.has_probabilities;
     for (const std::uint64_t count : plants.by_species) {
@@ -321,7 +331,9 @@ Ecosystem read(const std::filesystem::path& path, const base::Progress& progress
 Summary read_summary(const std::filesystem::path& path) {
   return with_memory_errors(path.string(), [&] {
     const auto source = source_from_file(path);
-    return Opened(*source).summary;
+    const Opened opened(*source);
+    for (const Chunk& chunk : opened.file.chunks()) opened.file.check(chunk);
+    return opened.summary;
   });
 }
 

@@ -73,6 +73,11 @@ void add_layer(std::vector<Job>& jobs, const Layer& layer, std::uint32_t number)
               const std::uint64_t begin = first_site[first], end = first_site[first + rows];
               return bytes_from_plants(std::span(layer.plants).subspan(begin, end - begin), layer.species.size());
             });
+  if (!layer.suitability.empty()) {
+    jobs.push_back(
+        record(suitability_type, number, [&layer](ByteWriter& to) { put_suitability(to, layer.suitability); }));
+    jobs.back().chunk.flags = flag_optional;
+  }
   if (layer.probabilities.empty()) return;
   add_bands(jobs, probabilities_type, number, total, layer.tiling.rows,
             [&layer, first_site](std::uint32_t first, std::uint32_t rows) {

@@ -155,6 +155,22 @@ void get_tiling(ByteReader& from, tiles::Tiling& tiling) {
   for (std::uint16_t& tile : tiling.tiles) tile = from.get<std::uint16_t>();
 }
 
+void put_suitability(ByteWriter& to, const SuitabilityMap& map) {
+  put_int(to, map.columns);
+  put_int(to, map.rows);
+  for (const double number : {map.west, map.north, map.cell_m}) to.put(number);
+  to.put_raw(std::as_bytes(std::span(map.shares)));
+}
+
+void get_suitability(ByteReader& from, SuitabilityMap& map) {
+  map.columns = get_int(from);
+  map.rows = get_int(from);
+  for (double* number : {&map.west, &map.north, &map.cell_m}) *number = from.get<double>();
+  map.shares.resize(from.left());
+  for (std::uint8_t& share : map.shares) share = from.get<std::uint8_t>();
+  from.expect_end();
+}
+
 std::vector<std::byte> bytes_from_plants(std::span<const PlantId> plants, std::size_t species) {
   if (bytes_a_plant(species) == 2) return bytes_from_u16(plants);
   std::vector<std::byte> bytes(plants.size());

@@ -25,6 +25,7 @@ inline constexpr ChunkType tile_set_type{'T', 'S', 'E', 'T'};       // tiles and
 inline constexpr ChunkType tiling_type{'T', 'L', 'N', 'G'};         // tile indices
 inline constexpr ChunkType plants_type{'P', 'L', 'N', 'T'};         // bands of plant ids
 inline constexpr ChunkType probabilities_type{'P', 'R', 'O', 'B'};  // bands of probabilities
+inline constexpr ChunkType suitability_type{'S', 'U', 'I', 'T'};    // map a species; optional
 inline constexpr ChunkType filler_type{'F', 'I', 'L', 'L'};         // zeros; optional
 
 void put_meta(ByteWriter& to, const Ecosystem& ecosystem);
@@ -50,6 +51,9 @@ void get_tile_set(ByteReader& from, tiles::TileSet& set);
 
 void put_tiling(ByteWriter& to, const tiles::Tiling& tiling);
 void get_tiling(ByteReader& from, tiles::Tiling& tiling);  // columns and rows known from the layer
+
+void put_suitability(ByteWriter& to, const SuitabilityMap& map);
+void get_suitability(ByteReader& from, SuitabilityMap& map);
 
 // Plant ids take one byte where every species and "no plant" (all bits set) have a value of their own, else two.
 inline std::size_t bytes_a_plant(std::size_t species) { return species < 0xFF ? 1 : 2; }

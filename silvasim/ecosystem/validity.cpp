@@ -24,6 +24,33 @@ bool is_text(const std::string& text) {
   }
 }
 
+// Far more than the earth's girth; sums and products of such numbers stay exact to a millimetre, or at least finite.
+constexpr double farthest_m = 1e9;
+
+template <typename... Numbers>
+bool near(Numbers... numbers) {
+  return ((std::fabs(numbers) <= farthest_m) && ...);
+}
+
+// How deep objects and arrays are nested in valid JSON.
+int depth_of(const std::string& json) {
+  int depth = 0, deepest = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_text && c == '\\') {
+      ++i;
+    } else if (c == '"') {
+      in_text = !in_text;
+    } else if (!in_text && (c == '{' || c == '[')) {
+      deepest = std::max(deepest, ++depth);
+    } else if (!in_text && (c == '}' || c == ']')) {
+      --depth;
+    }
+  }
+  return deepest;
+}
+
 template <typename... Numbers>
 bool finite(Numbers... numbers) {
   return (std::isfinite(numbers) && ...);
@@ -62,6 +89,9 @@ std::string problem_with_frame(const Ecosystem& ecosystem) {
   if (!is_text(ecosystem.name)) return "the ecosystem's name is not UTF-8 text";
   if (!is_text(ecosystem.crs_wkt)) return "the CRS is not UTF-8 text";
   if (!finite(box.west, box.south, box.east, box.north) || box.empty()) return "the extent is empty or not finite";
+  if (!near(box.west, box.south, box.east, box.north)) {
+    return "the extent reaches farther than 1,000,000 km from the origin of its coordinates";
+  }
   return {};
 }
 
@@ -70,6 +100,8 @@ std::string problem_with_provenance(const std::string& json) {
   if (first == std::string::npos || json[first] != '{' || !nlohmann::json::accept(json)) {
     return "the provenance is not one JSON object";
   }
+  constexpr int deepest = 64;
+  if (depth_of(json) > deepest) return "the provenance is nested deeper than " + std::to_string(deepest) + " levels";
   return {};
 }
 
@@ -83,6 +115,9 @@ std::string problem_with_grid(const Terrain& terrain) {
       !(terrain.cell_width_m > 0 && terrain.cell_height_m > 0)) {
     return "the terrain's corner and cell size must be finite, and the cells larger than 0";
   }
+  if (!near(terrain.west, terrain.north, terrain.cell_width_m, terrain.cell_height_m)) {
+    return "the terrain lies farther than 1,000,000 km from the origin of its coordinates, or has larger cells";
+  }
   return {};
 }
 
@@ -95,6 +130,9 @@ std::string problem_with_head(const Layer& layer) {
   if (!is_text(layer.name)) return "a layer's name is not UTF-8 text";
   if (!finite(layer.north_west.x, layer.north_west.y)) {
     return "the north-west corner of layer " + quoted(layer.name) + " is not finite";
+  }
+  if (!near(layer.north_west.x, layer.north_west.y)) {
+    return "layer " + quoted(layer.name) + " begins farther than 1,000,000 km from the origin of its coordinates";
   }
   return {};
 }
@@ -175,6 +213,21 @@ std::string problem_with(const tiles::Tiling& tiling, const tiles::TileSet& set)
   return {};
 }
 
+std::string problem_with(const SuitabilityMap& map, std::size_t species) {
+  if (map.columns == 0 && map.rows == 0 && map.empty()) return {};
+  if (map.columns <= 0 || map.rows <= 0 || !finite(map.west, map.north, map.cell_m) || !(map.cell_m > 0) ||
+      !near(map.west, map.north, map.cell_m)) {
+    return "the suitability map's size, corner and cells must be finite, and its sides and cells larger than 0";
+  }
+  // columns * rows < 2^62, species < 2^16.
+  const auto cells = static_cast<std::uint64_t>(map.columns) * static_cast<std::uint64_t>(map.rows);
+  if (species == 0 || map.shares.size() % species != 0 || map.shares.size() / species != cells) {
+    return "the suitability map holds " + std::to_string(map.shares.size()) + " shares for " + std::to_string(species) +
+           " species on " + std::to_string(map.columns) + " x " + std::to_string(map.rows) + " cells";
+  }
+  return {};
+}
+
 std::string problem_with(const Ecosystem& ecosystem) {
   if (std::string problem = problem_with_frame(ecosystem); !problem.empty()) return problem;
   if (std::string problem = problem_with_provenance(ecosystem.provenance_json); !problem.empty()) return problem;
@@ -205,6 +258,9 @@ std::string problem_with(const Ecosystem& ecosystem) {
     if (!layer.probabilities.empty() && layer.probabilities.size() != sites) {
       return name + "it has " + std::to_string(layer.probabilities.size()) + " probabilities for " +
              std::to_string(sites) + " sites";
+    }
+    if (std::string problem = problem_with(layer.suitability, layer.species.size()); !problem.empty()) {
+      return name + problem;
     }
     const std::size_t at =
         first_wrong(layer.plants, [count = layer.species.size()](PlantId id) { return id >= count && id != no_plant; });

@@ -65,7 +65,7 @@ struct RandomLayerOptions {
   int columns = 1, rows = 1;
   std::size_t species = 3;
   std::size_t most_sites = 12;  // a tile
-  bool probabilities = false;
+  bool probabilities = false;   // and the suitability map
 };
 
 inline Layer random_layer(Random& random, const RandomLayerOptions& options) {
@@ -90,6 +90,16 @@ inline Layer random_layer(Random& random, const RandomLayerOptions& options) {
     const bool bare = options.species == 0 || below(random, 4) == 0;
     layer.plants.push_back(bare ? no_plant : static_cast<PlantId>(below(random, options.species)));
     if (options.probabilities) layer.probabilities.push_back(static_cast<std::uint16_t>(random()));
+  }
+  if (options.probabilities && options.species > 0) {
+    SuitabilityMap& map = layer.suitability;
+    map.columns = static_cast<int>(1 + below(random, 20));
+    map.rows = static_cast<int>(1 + below(random, 20));
+    map.west = 1e6 * share(random);
+    map.north = -1e6 * share(random);
+    map.cell_m = 0.1 + 30 * share(random);
+    map.shares.resize(options.species * static_cast<std::size_t>(map.columns * map.rows));
+    for (std::uint8_t& value : map.shares) value = static_cast<std::uint8_t>(random());
   }
   return layer;
 }

@@ -217,6 +217,9 @@ TEST(Validity, WhatMakesNoSenseIsNotWritten) {
   expect("column 1, row 0 of the tiling holds tile 999", [](E&, L& l) { l.tiling.tiles[1] = 999; });
   expect("plant ids for", [](E&, L& l) { l.plants.pop_back(); });
   expect("probabilities for", [](E&, L& l) { l.probabilities.pop_back(); });
+  expect("shares for", [](E&, L& l) { l.suitability.shares.pop_back(); });
+  expect("suitability map", [](E&, L& l) { l.suitability.cell_m = 0; });
+  expect("suitability map", [](E&, L& l) { l.suitability.west = NAN; });
   expect("site number 1 holds species 2 of 2", [](E&, L& l) { l.plants[1] = 2; });
   const auto ill_fitting = [](int columns, int rows, std::vector<std::uint16_t> tiles) {
     return [=](E&, L& l) {

@@ -61,7 +61,7 @@ def chunks_of(data):
         end += stored
         piece = data[offset:end]
         assert xxh3(piece) == check
-        if flags & 1:
+        if flags & 1 and kind != b"SUIT":
             continue
         yield kind.decode(), layer, first, rows, unpack(codec, piece, size)
     assert end == table_at
@@ -111,6 +111,9 @@ def read(data):
             for _ in range(c.get("I")):
                 colours = c.get("4B")
                 layer["tiles"].append([colours, [c.get("3I") for _ in range(c.get("I"))]])
+        elif kind == "SUIT":
+            layer["map"] = [*c.get("IIQQQ"), list(content[c.at:])]
+            continue
         elif kind == "TLNG":
             layer["tiling"] = [n for n, in struct.iter_unpack("<H", content)]
         else:

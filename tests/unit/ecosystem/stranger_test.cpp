@@ -63,6 +63,9 @@ json told(const Ecosystem& ecosystem) {
     one["tiling"] = layer.tiling.tiles;
     for (const PlantId id : layer.plants) one["plants"].push_back(id == no_plant ? -1 : id);
     one["probabilities"] = layer.probabilities;
+    if (const SuitabilityMap& map = layer.suitability; !map.empty()) {
+      one["map"] = {map.columns, map.rows, bits(map.west), bits(map.north), bits(map.cell_m), map.shares};
+    }
     all["layers"].push_back(one);
   }
   return all;
