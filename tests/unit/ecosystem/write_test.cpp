@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -13,7 +14,6 @@
 
 #include "random_ecosystem.h"
 #include "silvasim/base/error.h"
-#include "silvasim/base/parallel.h"
 #include "silvasim/ecosystem/file.h"
 
 namespace silvasim::ecosystem {
@@ -93,24 +93,50 @@ TEST_F(WriteTest, AHugeFileWithAHealthyHeaderIsRefusedCheaply) {
 }
 
 // Kills a writer again and again, each time a little later. The final name holds the old file or the new one.
-TEST_F(WriteTest, KilledWhileWritingLeavesAWholeFileOrNone) {
+Ecosystem large_ecosystem() {
   Random random(9);
-  Ecosystem large = ecosystem_;
+  Ecosystem large = small_ecosystem();
   large.terrain = random_terrain(random, 500, 500);
+  return large;
+}
+
+constexpr int refused_and_named = 7, refused_otherwise = 8;
+
+// Writes the large ecosystem in a process of its own, which no thread of this one is missing in: this program again, with
+// nothing to run but the test below.
+pid_t start_writer(const fs::path& path, rlim_t most_bytes) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  signal(SIGXFSZ, SIG_IGN);
+  const rlimit limit{most_bytes, most_bytes};
+  setrlimit(RLIMIT_FSIZE, &limit);
+  setenv("SILVA_WRITE_TO", path.c_str(), 1);
+  execl("/proc/self/exe", "writer", "--gtest_filter=Writer.DISABLED_Writes", "--gtest_also_run_disabled_tests",
+        "--gtest_brief=1", nullptr);
+  _exit(127);
+}
+
+TEST(Writer, DISABLED_Writes) {
+  const char* const path = std::getenv("SILVA_WRITE_TO");
+  ASSERT_NE(path, nullptr) << "run by the tests below only";
+  try {
+    write(large_ecosystem(), path);
+  } catch (const base::Error& error) {
+    _exit(std::string(error.what()).find(path) != std::string::npos ? refused_and_named : refused_otherwise);
+  }
+  _exit(0);
+}
+
+TEST_F(WriteTest, KilledWhileWritingLeavesAWholeFileOrNone) {
+  const Ecosystem large = large_ecosystem();
   int killed = 0, finished = 0, absent = 0;
   for (int round = 0; round < 30; ++round) {
     const fs::path path = folder_ / "a.silva";
     const bool had_old = round % 2 == 0;
     fs::remove(path);
     if (had_old) write(ecosystem_, path);
-    const pid_t child = fork();
-    ASSERT_GE(child, 0);
-    if (child == 0) {
-      const base::ThreadLimit alone(1);  // a forked child has no other threads
-      write(large, path);
-      _exit(0);
-    }
-    std::this_thread::sleep_for(std::chrono::microseconds(500 * round));
+    const pid_t child = start_writer(path, RLIM_INFINITY);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2 * round));
     kill(child, SIGKILL);
     int status = 0;
     ASSERT_EQ(waitpid(child, &status, 0), child);
@@ -129,26 +155,11 @@ TEST_F(WriteTest, KilledWhileWritingLeavesAWholeFileOrNone) {
 
 // A disk that is full after 16 KiB.
 TEST_F(WriteTest, AFullDiskIsAnErrorAndLeavesNothing) {
-  Random random(10);
-  ecosystem_.terrain = random_terrain(random, 200, 200);
-  const fs::path path = folder_ / "a.silva";
-  const pid_t child = fork();
-  if (child == 0) {
-    const base::ThreadLimit alone(1);
-    signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{1 << 14, 1 << 14};
-    setrlimit(RLIMIT_FSIZE, &limit);
-    try {
-      write(ecosystem_, path);
-    } catch (const base::Error& error) {
-      _exit(std::string(error.what()).find(path.string()) != std::string::npos ? 7 : 8);
-    }
-    _exit(0);
-  }
+  const pid_t child = start_writer(folder_ / "a.silva", 1 << 14);
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 7);
+  EXPECT_EQ(WEXITSTATUS(status), refused_and_named);
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
