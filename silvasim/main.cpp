@@ -54,10 +54,13 @@ void add_run(CLI::App& app, Options& o) {
   command->add_option("--svg", o.run.svg, "Also write a map as SVG, a layer a species");
   for (const auto& format : silvasim::exports::formats()) {
     const auto keep = [&o, name = format.name](const Path& path) { o.run.exports[name] = path; };
-    command->add_option_function<Path>("--" + format.name, keep, "Also write every plant: " + format.help);
+    const std::string what =
+        format.maps ? "Also write maps of the place, and keep --probabilities: " : "Also write every plant: ";
+    command->add_option_function<Path>("--" + format.name, keep, what + format.help);
   }
-  command->add_flag("--probabilities", o.run.probabilities,
-                    "Keep each plant's growth probability in the ecosystem file");
+  command->add_flag(
+      "--probabilities", o.run.probabilities,
+      "Keep each plant's growth probability and a map of each species' suitability in the ecosystem file");
   add_common(*command, o.run.common);
   command->callback([&o] { run(o.run); });
 }
@@ -95,7 +98,11 @@ void add_preview(CLI::App& app, Options& o) {
   command->add_option("ecosystem", o.preview.ecosystem, "The ecosystem file (.silva)")->required();
   command->add_option("-o,--output", o.preview.output, "The map, .png or .svg")->required();
   command->add_option("--species", o.preview.species, "Only this species (may be repeated)");
-  command->add_option("--layer", o.preview.layer, "What to draw")->check(CLI::IsMember({"species", "probability"}));
+  command
+      ->add_option(
+          "--layer", o.preview.layer,
+          "What to draw: the species, the growth probability of their plants, or how well the place suits them")
+      ->check(CLI::IsMember({"species", "probability", "suitability"}));
   command->add_option("--bbox", o.preview.bbox, "WEST,SOUTH,EAST,NORTH in the scene's metres")
       ->delimiter(',')
       ->expected(4);
@@ -108,7 +115,8 @@ void add_preview(CLI::App& app, Options& o) {
 }
 
 void add_export(CLI::App& app, Options& o) {
-  CLI::App* command = app.add_subcommand("export", "Write the plants of an ecosystem file for other programs");
+  CLI::App* command =
+      app.add_subcommand("export", "Write an ecosystem file's plants, or maps of its place, for other programs");
   std::string names;
   for (const auto& format : silvasim::exports::formats()) names += (names.empty() ? "" : ", ") + format.name;
   command->add_option("ecosystem", o.exports.ecosystem, "The ecosystem file (.silva)")->required();

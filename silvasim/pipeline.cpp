@@ -8,6 +8,7 @@
 
 #include "silvasim/base/machine.h"
 #include "silvasim/evaluators/network.h"
+#include "silvasim/evaluators/suitability_map.h"
 #include "silvasim/provenance.h"
 #include "silvasim/tiles/fill.h"
 #include "silvasim/tiles/tile_land.h"
@@ -216,7 +217,13 @@ Simulation simulate(const config::Scenario& scenario, const SimulationOptions& o
   for (std::size_t layer = 0; layer < scenario.layers.size(); ++layer) {
     GrownLayer grown = grow_layer(scenario, layer, fields, options.progress, report.seconds);
     report.layers.push_back(grown.report);
+    ecosystem::SuitabilityMap map;
+    if (options.probabilities) {
+      Stopwatch stopwatch(report.seconds, "map");
+      map = evaluators::map_suitability(grown.suitability, grown.ground(fields));
+    }
     ecosystem.layers.push_back(finished(std::move(grown), scenario.layers[layer], options.probabilities));
+    ecosystem.layers.back().suitability = std::move(map);
   }
   ecosystem.terrain = terrain_of(fields);
   ecosystem.provenance_json = provenance(scenario, fields);

@@ -20,7 +20,7 @@
 namespace silvasim {
 
 struct SimulationOptions {
-  bool probabilities = false;  // keep each plant's growth probability in the ecosystem
+  bool probabilities = false;  // keep each plant's growth probability, and a map of each species' suitability
   base::Progress progress;
 };
 

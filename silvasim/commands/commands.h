@@ -56,7 +56,7 @@ struct InfoOptions {
 struct PreviewOptions {
   Common common;
   Path ecosystem, output;
-  std::string layer = "species";  // species | probability
+  std::string layer = "species";  // species | probability | suitability
   std::vector<std::string> species;
   std::vector<double> bbox;  // west, south, east, north
   int width_px = 1600;

@@ -18,7 +18,8 @@ void preview(const PreviewOptions& options) {
   exports::PreviewOptions picture;
   picture.width_px = options.width_px;
   picture.species = options.species;
-  picture.subject = options.layer == "probability" ? exports::Subject::probability : exports::Subject::species;
+  if (options.layer == "probability") picture.subject = exports::Subject::probability;
+  if (options.layer == "suitability") picture.subject = exports::Subject::suitability;
   picture.decorated = !options.bare;
   picture.title = options.title;
   if (!options.bbox.empty())

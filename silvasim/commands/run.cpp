@@ -174,7 +174,12 @@ void run(const RunOptions& options) {
   const std::vector<Path> inputs = inputs_of(scenario);
   check_outputs(outputs, inputs);
 
-  Simulation simulation = simulate(scenario, {options.probabilities, progress});
+  // Maps of the place can be exported only if they are kept.
+  bool probabilities = options.probabilities;
+  for (const exports::Format& format : exports::formats()) {
+    probabilities |= format.maps && options.exports.contains(format.name);
+  }
+  Simulation simulation = simulate(scenario, {probabilities, progress});
   const ecosystem::Ecosystem& grown = simulation.ecosystem;
   const auto timed = [&](const char* stage, const auto& write) {
     const double before = passed();

@@ -131,6 +131,15 @@ class CoverGrid {
   std::vector<Cover> cells_;
 };
 
+// Half of the relief's light falls on what grows too, so that hills stay hills under forest.
+float lit(float shade) { return 1 + 0.55f * (std::min(shade, 1.3f) - 1); }
+
+std::array<Light, 256> ramp_lights() {
+  std::array<Light, 256> lights{};
+  for (std::size_t i = 0; i < lights.size(); ++i) lights[i] = light_of(ramp(static_cast<double>(i) / 255));
+  return lights;
+}
+
 // The colours of one layer's species, or of the probabilities.
 struct Palette {
   Palette(const ecosystem::Layer& layer, const std::vector<SpeciesCount>& counts, Subject subject_)
@@ -140,7 +149,6 @@ struct Palette {
       fill.push_back(light_of(layer.species[s].colour));
       rim.push_back(light_of(darker(layer.species[s].colour)));
     }
-    for (std::size_t i = 0; i < heat.size(); ++i) heat[i] = light_of(ramp(static_cast<double>(i) / 255));
   }
   Light fill_of(const ecosystem::Plant& plant) const {
     return subject == Subject::species ? fill[plant.species]
@@ -153,7 +161,7 @@ struct Palette {
   Subject subject;
   std::vector<char> shown;
   std::vector<Light> fill, rim;
-  std::array<Light, 256> heat{};
+  std::array<Light, 256> heat = ramp_lights();
 };
 
 // Paints every band on its own and collects the bytes.
@@ -203,6 +211,23 @@ Pixels draw_ground(const View& view, const Ground& ground) {
   return in_bands(view, [&](Band& band) { paint_ground(band, view, ground, nullptr); });
 }
 
+Pixels draw_heat(const View& view, const Ground& ground, const Heat& heat) {
+  const std::array<Light, 256> colours = ramp_lights();
+  return in_bands(view, [&](Band& band) {
+    std::vector<float> shades;
+    paint_ground(band, view, ground, &shades);
+    std::size_t i = 0;
+    for (int y = band.first; y < band.last; ++y) {
+      for (int x = 0; x < band.width; ++x, ++i) {
+        const Heat::Sample sample = heat.at(view.x_m(x + 0.5), view.y_m(y + 0.5));
+        if (sample.opacity <= 0) continue;
+        const Light colour = colours[static_cast<std::size_t>(std::min(sample.share, 1.0f) * 255 + 0.5f)];
+        band.light[i] = mix(band.light[i], colour * lit(shades[i]), sample.opacity);
+      }
+    }
+  });
+}
+
 Pixels draw_map(const ecosystem::Ecosystem& ecosystem, const Census& census, const View& view, const Ground& ground,
                 Subject subject) {
   const Style style = style_of(census, view);
@@ -243,9 +268,8 @@ Pixels draw_map(const ecosystem::Ecosystem& ecosystem, const Census& census, con
         for (int x = 0; x < band.width; ++x, ++i) {
           const Cover here = smooth ? cover.smoothed(x, y) : cover.at_pixel(x, y);
           if (here.covered <= 0) continue;
-          // Half of the relief's light falls on the plants too, so that hills stay hills under forest.
-          const float lit = subject == Subject::species ? 1 + 0.55f * (std::min(shades[i], 1.3f) - 1) : 1.0f;
-          band.light[i] = mix(band.light[i], here.light * (lit / here.covered), opacity(here.covered, boldness));
+          const float bright = subject == Subject::species ? lit(shades[i]) : 1.0f;
+          band.light[i] = mix(band.light[i], here.light * (bright / here.covered), opacity(here.covered, boldness));
         }
       }
     }

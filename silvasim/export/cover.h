@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "silvasim/export/ground.h"
+#include "silvasim/export/heat.h"
 #include "silvasim/export/view.h"
 
 namespace silvasim::exports {
@@ -56,6 +57,9 @@ struct Pixels {
 };
 
 Pixels draw_ground(const View& view, const Ground& ground);
+
+// The ramp's colours in the relief's light; ground where nothing can grow.
+Pixels draw_heat(const View& view, const Ground& ground, const Heat& heat);
 
 Pixels draw_map(const ecosystem::Ecosystem& ecosystem, const Census& census, const View& view, const Ground& ground,
                 Subject subject);

@@ -22,6 +22,7 @@ const std::vector<Format>& formats() {
        "gpkg",
        &write_fgb},
       {"geojson", {".geojson", ".json"}, "GeoJSON (RFC 7946) with a point a plant, for web maps", &write_geojson},
+      {"tif", {".tif", ".tiff"}, "GeoTIFF with a band a species: how well the place suits it", &write_tif, true},
   };
   return table;
 }

@@ -1,6 +1,6 @@
-// An ecosystem's plants as files for other programs: one format a file, one table.
+// An ecosystem as files for other programs: one format a file, one table.
 //
-// Every format writes a row (or point) for each standing plant, in the order of the ecosystem file, with these columns:
+// Every format but the maps writes a row (or point) for each standing plant, in the order of the ecosystem file, with these columns:
 //   id             running index of the plant's site over its layer's tile positions and their sites. It stays the same
 //                  in every format and every run of the same seed and tiles, whether other plants stand or not; with
 //                  the layer it names the plant.
@@ -14,7 +14,7 @@
 //   tile_column, tile_row, site   where the plant stands in the tiling, and its site's id in the tile
 //
 // Promise: same ecosystem, same bytes, whatever the threads.
-// Errors: base::ConfigError for an unknown format; base::Error where the file cannot be written.
+// Errors: base::ConfigError for an unknown format and for maps that the ecosystem does not hold; base::Error where the file cannot be written.
 #pragma once
 
 #include <filesystem>
@@ -31,6 +31,7 @@ struct Format {
   std::vector<std::string> extensions;  // with the dot, the usual one first
   std::string help;                     // one line
   void (*write)(const ecosystem::Ecosystem&, const std::filesystem::path&, const base::Progress&);
+  bool maps = false;  // of the place, not its plants: the ecosystem must hold them (SimulationOptions::probabilities)
 };
 
 const std::vector<Format>& formats();
@@ -53,5 +54,11 @@ void write_fgb(const ecosystem::Ecosystem& ecosystem, const std::filesystem::pat
                const base::Progress& progress);
 void write_geojson(const ecosystem::Ecosystem& ecosystem, const std::filesystem::path& path,
                    const base::Progress& progress);
+
+// tif: a GeoTIFF of the layers' SuitabilityMaps in the scene's CRS. A Float32 band a species, 0..1, NaN without sites, its
+// description the species' name, with "layer: " in front where there are several layers. The layer of the smallest cells
+// gives the grid; the cells of the others are repeated on it.
+void write_tif(const ecosystem::Ecosystem& ecosystem, const std::filesystem::path& path,
+               const base::Progress& progress);
 
 }  // namespace silvasim::exports

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "silvasim/base/parallel.h"
+#include "silvasim/export/spline.h"
 
 namespace silvasim::exports {
 
@@ -152,13 +153,8 @@ Ground::Sample Ground::at(double x, double y) const {
   // Cubic B-splines over 4 x 4 cells: smooth everywhere, a little softer than the cells.
   const double u = (x - west_) / cell_width_ - 0.5, v = (north_ - y) / cell_height_ - 0.5;
   if (!(u >= -0.5 && u <= columns_ - 0.5 && v >= -0.5 && v <= rows_ - 0.5)) return {paper, 1};
-  const auto spline = [](float t) {
-    const float s = 1 - t;
-    return std::array<float, 4>{s * s * s / 6, (3 * t * t * t - 6 * t * t + 4) / 6, (3 * s * s * s - 6 * s * s + 4) / 6,
-                                t * t * t / 6};
-  };
   const int i0 = static_cast<int>(std::floor(u)), j0 = static_cast<int>(std::floor(v));
-  const auto a = spline(static_cast<float>(u - i0)), b = spline(static_cast<float>(v - j0));
+  const auto a = cubic_spline(static_cast<float>(u - i0)), b = cubic_spline(static_cast<float>(v - j0));
   float shade = 0, height = 0, weight = 0;
   for (int dj = 0; dj < 4; ++dj) {
     const std::size_t row =

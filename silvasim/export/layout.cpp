@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "silvasim/base/error.h"
+#include "silvasim/export/heat.h"
 #include "silvasim/export/legend.h"
 #include "silvasim/export/place_text.h"
 
@@ -16,13 +17,14 @@ namespace {
 constexpr int least_width_px = 16, least_decorated_px = 240, most_px = 20'000;
 constexpr const char* separator = "\u2002·\u2002";
 
-std::string title_of(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& options) {
+std::string title_of(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& options, const Census& census) {
   if (!options.title.empty()) return printable(options.title);
   std::string title = ecosystem.name.empty() ? "Plant population" : ecosystem.name;
   if (options.subject == Subject::probability) {
     title += ": growth probability";
     if (options.species.size() == 1) title += " of " + options.species.front();
   }
+  if (options.subject == Subject::suitability) title += ": " + heat_title(ecosystem, census, options);
   return printable(title);
 }
 
@@ -139,7 +141,7 @@ Layout make_layout(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& 
   Layout layout;
   layout.width_px = options.width_px;
   layout.view.box = box;
-  layout.title = title_of(ecosystem, options);
+  layout.title = title_of(ecosystem, options, census);
   const double width = options.width_px, aspect = box.width() / box.height();
   if (!options.decorated) {
     const double height = std::round(width / aspect);

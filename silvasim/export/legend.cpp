@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "silvasim/export/ground.h"
+
 namespace silvasim::exports {
 
 namespace {
@@ -22,10 +24,18 @@ Legend::Legend(const ecosystem::Ecosystem& ecosystem, const Census& census, Subj
     entries += static_cast<std::size_t>(std::count_if(layer.begin(), layer.end(), [](auto& c) { return c.shown; }));
   }
   two_lines_ = entries <= most_two_line_entries;
-  if (subject == Subject::probability) rows_.push_back({Row::Kind::ramp, "Growth probability", {}, 0, 0, {}});
-  if (ecosystem.layers.size() != 1) {
-    rows_.push_back({Row::Kind::heading, plants_text(census.plants), {}, 0, 0, {}});
-  }
+  const bool of_place = subject == Subject::suitability;
+  const auto put = [&](Row::Kind kind, std::string first, std::string second = {}) -> Row& {
+    Row row;
+    row.kind = kind;
+    row.first = std::move(first);
+    row.second = std::move(second);
+    rows_.push_back(std::move(row));
+    return rows_.back();
+  };
+  if (subject == Subject::probability) put(Row::Kind::ramp, "Growth probability");
+  if (of_place) put(Row::Kind::ramp, "Suitability of the place");
+  if (ecosystem.layers.size() != 1) put(Row::Kind::heading, of_place ? "Mean of the map" : plants_text(census.plants));
   for (std::size_t l = 0; l < ecosystem.layers.size(); ++l) {
     const ecosystem::Layer& layer = ecosystem.layers[l];
     std::vector<std::size_t> order;
@@ -37,16 +47,15 @@ Legend::Legend(const ecosystem::Ecosystem& ecosystem, const Census& census, Subj
     }
     if (order.empty()) continue;
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return census.layers[l][a].plants > census.layers[l][b].plants;
+      const SpeciesCount &first = census.layers[l][a], &second = census.layers[l][b];
+      return of_place ? first.mean_suitability > second.mean_suitability : first.plants > second.plants;
     });
-    const std::string name = ecosystem.layers.size() == 1 ? std::string() : printable(layer.name);
-    rows_.push_back({Row::Kind::heading,
-                     name.empty() ? plants_text(plants) : name,
-                     name.empty() ? std::string() : grouped(plants),
-                     0,
-                     0,
-                     {},
-                     !rows_.empty() && rows_.back().kind == Row::Kind::entry});
+    const bool apart = !rows_.empty() && rows_.back().kind == Row::Kind::entry;
+    if (ecosystem.layers.size() == 1) {
+      put(Row::Kind::heading, of_place ? "Mean of the map" : plants_text(plants));
+    } else {
+      put(Row::Kind::heading, printable(layer.name), of_place ? "" : grouped(plants)).apart = apart;
+    }
     for (const std::size_t s : order) {
       const SpeciesCount& count = census.layers[l][s];
       Row row;
@@ -54,7 +63,11 @@ Legend::Legend(const ecosystem::Ecosystem& ecosystem, const Census& census, Subj
       row.second = printable(layer.species[s].name);
       row.colour = layer.species[s].colour;
       row.plants = count.plants;
-      if (subject == Subject::probability) {
+      row.number = of_place ? fmt::format("{:.2f}", count.mean_suitability) : grouped(count.plants);
+      row.faint = of_place ? count.mean_suitability <= 0 : count.plants == 0;
+      if (of_place) {
+        // The mean says all.
+      } else if (subject == Subject::probability) {
         row.aside = count.plants == 0 ? "" : fmt::format("mean {:.2f}", count.mean_probability);
       } else {
         row.aside =
@@ -73,7 +86,7 @@ Legend::Legend(const ecosystem::Ecosystem& ecosystem, const Census& census, Subj
       names = std::max(names, width_px(row.first, heading) - 40 * unit_px);
     }
     if (row.kind != Row::Kind::entry) continue;
-    numbers_px_ = std::max(numbers_px_, width_px(grouped(row.plants), name));
+    numbers_px_ = std::max(numbers_px_, width_px(row.number, name));
     asides_px_ = std::max(asides_px_, width_px(row.aside, small));
     const double first = width_px(row.first, name), second = width_px(row.second, italic);
     names =
@@ -94,7 +107,7 @@ double Legend::height_px(const Row& row) const {
     case Row::Kind::heading:
       return ((two_lines_ ? 36 : 30) + (row.apart ? 12 : 0)) * unit_px_;
     case Row::Kind::ramp:
-      return 74 * unit_px_;
+      return (subject_ == Subject::suitability ? 100 : 74) * unit_px_;
     default:
       return (two_lines_ ? 45 : 23) * unit_px_;
   }
@@ -136,13 +149,15 @@ double Legend::draw(Part& part, double x, double y, double column_px, int column
   const auto nowhere = [](std::size_t, int, double) {};
   double total = 0;
   for (std::size_t i = begin; i < rows_.size(); ++i) total += height_px(rows_[i]);
-  double height = std::max(total / columns, height_px(Row{}));
+  const bool leads = begin < rows_.size() && rows_[begin].kind == Row::Kind::heading;
+  double height = std::max(total / columns, height_px(Row{}) + (leads ? height_px(rows_[begin]) : 0));
   while (height < most_height_px && pour(height, nowhere) < rows_.size()) height += 4 * unit_px_;
   height = std::min(height, most_height_px);
 
   // Where not all fit, the last place tells how many are missing.
   std::size_t fits = pour(height, nowhere);
-  Row more{Row::Kind::more, {}, {}, 0, 0, {}};
+  Row more;
+  more.kind = Row::Kind::more;
   if (fits < rows_.size()) {
     fits = fits > begin ? fits - 1 : begin;
     std::size_t species = 0;
@@ -153,7 +168,7 @@ double Legend::draw(Part& part, double x, double y, double column_px, int column
       plants += rows_[i].plants;
     }
     more.first = fmt::format("and {} more species", species);
-    more.plants = plants;
+    if (subject_ != Subject::suitability) more.number = grouped(plants);
   }
   double bottom = y;
   pour(height, [&](std::size_t i, int column, double used) {
@@ -194,16 +209,21 @@ void Legend::draw_row(Part& part, const Row& row, double x, double y, double wid
         part.marks.push_back(Text{left + across * i / 2.0, top + tall + 15 * u, fmt::format("{:g}", i / 2.0), label,
                                   faint_colour, anchor});
       }
+      if (subject_ == Subject::suitability) {
+        const double y2 = top + tall + 27 * u;
+        part.marks.push_back(Rectangle{left, y2, 22 * u, tall, paper_colour, faint_colour, 0.8 * u});
+        part.marks.push_back(Text{left + 30 * u, y2 + 12 * u, fitted("bare ground: cannot grow", label, width - 30 * u),
+                                  label, faint_colour});
+      }
       return;
     }
     case Row::Kind::more: {
       const Font font{13 * u};
-      const std::string count = grouped(row.plants);
-      const double numbers = width_px(count, font);
+      const double numbers = width_px(row.number, font);
       const double right = x + width - (two_lines_ || asides_px_ == 0 ? 0 : asides_px_ + 12 * u);
       part.marks.push_back(
           Text{x + 28 * u, y + 15 * u, fitted(row.first, font, right - numbers - x - 40 * u), font, faint_colour});
-      part.marks.push_back(Text{right, y + 15 * u, count, font, faint_colour, Anchor::end});
+      part.marks.push_back(Text{right, y + 15 * u, row.number, font, faint_colour, Anchor::end});
       return;
     }
     case Row::Kind::entry:
@@ -214,7 +234,7 @@ void Legend::draw_row(Part& part, const Row& row, double x, double y, double wid
 
 void Legend::draw_entry(Part& part, const Row& row, double x, double y, double width) const {
   const double u = unit_px_;
-  const Colour ink = row.plants > 0 ? ink_colour : faint_colour;
+  const Colour ink = row.faint ? faint_colour : ink_colour;
   const Font name{(two_lines_ ? 15 : 13) * u}, italic{13 * u, false, true}, small{13 * u};
   const double radius = (two_lines_ ? 8.5 : 6.5) * u;
   if (subject_ == Subject::species) {
@@ -224,7 +244,7 @@ void Legend::draw_entry(Part& part, const Row& row, double x, double y, double w
   const double left = x + (subject_ == Subject::species ? 28 * u : 0);
   if (two_lines_) {
     const double room = x + width - left - 16 * u;
-    const double first = room - width_px(grouped(row.plants), name), second = room - width_px(row.aside, small);
+    const double first = room - width_px(row.number, name), second = room - width_px(row.aside, small);
     // A species without a common name moves its scientific one up.
     if (row.first.empty()) {
       const Font large{15 * u, false, true};
@@ -233,12 +253,12 @@ void Legend::draw_entry(Part& part, const Row& row, double x, double y, double w
       part.marks.push_back(Text{left, y + 15 * u, fitted(row.first, name, first), name, ink});
       part.marks.push_back(Text{left, y + 33 * u, fitted(row.second, italic, second), italic, faint_colour});
     }
-    part.marks.push_back(Text{x + width, y + 15 * u, grouped(row.plants), name, ink, Anchor::end});
+    part.marks.push_back(Text{x + width, y + 15 * u, row.number, name, ink, Anchor::end});
     if (!row.aside.empty())
       part.marks.push_back(Text{x + width, y + 33 * u, row.aside, small, faint_colour, Anchor::end});
     return;
   }
-  const double right = x + width - asides_px_ - 12 * u;
+  const double right = x + width - (asides_px_ == 0 ? 0 : asides_px_ + 12 * u);
   double room = right - numbers_px_ - 12 * u - left;
   double at = left;
   // The scientific name is the one that is unique: it keeps its place, the common one gives way.
@@ -252,7 +272,7 @@ void Legend::draw_entry(Part& part, const Row& row, double x, double y, double w
   const bool alone = at == left;
   part.marks.push_back(
       Text{at, y + 15 * u, fitted(row.second, italic, scientific), italic, alone ? ink : faint_colour});
-  part.marks.push_back(Text{right, y + 15 * u, grouped(row.plants), name, ink, Anchor::end});
+  part.marks.push_back(Text{right, y + 15 * u, row.number, name, ink, Anchor::end});
   if (!row.aside.empty())
     part.marks.push_back(Text{x + width, y + 15 * u, row.aside, small, faint_colour, Anchor::end});
 }

@@ -1,6 +1,7 @@
-// The legend: species with colour, names, counts and shares, grouped by vegetation layer; on probability maps the ramp.
+// The legend: species with colour, names, counts and shares, grouped by vegetation layer; on probability maps the
+// ramp, on maps of suitability means in place of counts.
 //
-// Entries stand by count, largest first. Up to twelve have two lines, more have one; what finds no room is summed up in
+// Entries stand by count (or mean), largest first. Up to twelve have two lines, more have one; what finds no room is summed up in
 // a last line, "and 5 more species".
 #pragma once
 
@@ -28,8 +29,10 @@ class Legend {
     std::string first, second;  // names: common and scientific, or heading
     Colour colour = 0;
     std::uint64_t plants = 0;
+    std::string number;  // the count, or the mean suitability
     std::string aside;   // share, or mean probability
     bool apart = false;  // stands below entries, with room above
+    bool faint = false;  // nothing of it is there
   };
   double height_px(const Row& row) const;
   void draw_row(Part& part, const Row& row, double x, double y, double width) const;

@@ -13,7 +13,9 @@ namespace silvasim::exports {
 
 namespace {
 
-std::string caption_of(const Census& census, const View& view, const PreviewOptions& options) {
+std::string caption_of(const ecosystem::Ecosystem& ecosystem, const Census& census, const View& view,
+                       const PreviewOptions& options) {
+  if (options.subject == Subject::suitability) return heat_caption(ecosystem, census);
   std::string text;
   if (census.plants == 0) {
     text = "No plants stand in this view.";
@@ -38,8 +40,7 @@ std::string world_file(const Layout& layout) {
 
 // What GDAL keeps beside an image; written without a CRS too, so that none of an older picture stays.
 std::string auxiliary_file(const std::string& crs_wkt) {
-  const std::string crs =
-      crs_wkt.empty() ? "" : "  <SRS>" + xml_escaped(crs_wkt) + "</SRS>\n";
+  const std::string crs = crs_wkt.empty() ? "" : "  <SRS>" + xml_escaped(crs_wkt) + "</SRS>\n";
   return "<PAMDataset>\n" + crs + "</PAMDataset>\n";
 }
 
@@ -49,10 +50,12 @@ void write_png(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& opti
                const std::filesystem::path& path) {
   const base::Box box = box_of(ecosystem, options);
   const Census census = take_census(ecosystem, options, box);
-  const Layout layout =
-      make_layout(ecosystem, options, census, box, [&](const View& view) { return caption_of(census, view, options); });
+  const Layout layout = make_layout(ecosystem, options, census, box,
+                                    [&](const View& view) { return caption_of(ecosystem, census, view, options); });
   const Ground ground(ecosystem.terrain, layout.view);
-  const Pixels map = draw_map(ecosystem, census, layout.view, ground, options.subject);
+  const Pixels map = options.subject == Subject::suitability
+                         ? draw_heat(layout.view, ground, Heat(ecosystem, census))
+                         : draw_map(ecosystem, census, layout.view, ground, options.subject);
 
   // Write all before any gets its name.
   const std::vector<std::filesystem::path> beside = files_beside(path);

@@ -7,7 +7,7 @@
 //
 // Promise: same ecosystem and options, same bytes, whatever the threads. Counts in the legend are of stems in the view.
 // Errors: base::ConfigError, its place the option's name, for what the user can mend (an unknown species, a box
-//   beside the land, a width out of range, probabilities that the ecosystem does not hold); base::Error where a file
+//   beside the land, a width out of range, probabilities or suitability maps that the ecosystem does not hold); base::Error where a file
 //   cannot be written.
 // Threads: works in parallel inside.
 // Cost: 5 million plants in 1600 pixels on two cores: PNG 0.6 s and 2.4 MB, SVG 0.35 s and 3.6 MB.
@@ -27,6 +27,7 @@ namespace silvasim::exports {
 enum class Subject {
   species,      // who stands where
   probability,  // the growth probability of the plants that stand
+  suitability,  // how likely the shown species that suits a place best would grow there; no plants
 };
 
 struct PreviewOptions {

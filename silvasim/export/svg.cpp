@@ -192,24 +192,41 @@ void write_hexagons(std::string& svg, const std::vector<Hexagon>& hexagons, Colo
   svg += "</g>\n";
 }
 
-void write_ground(std::string& svg, const ecosystem::Ecosystem& ecosystem, const View& view) {
-  const auto box = [&] { return "width=\"" + n(view.width_px) + "\" height=\"" + n(view.height_px) + "\""; };
+std::string size_of(const View& view) {
+  return "width=\"" + n(view.width_px) + "\" height=\"" + n(view.height_px) + "\"";
+}
+
+// The view as embedded pictures show it: of fewer pixels where it is large.
+View coarse(const View& view) {
   View coarse = view;
   const double shrink = std::max(1.0, std::max(view.width_px, view.height_px) / double(most_ground_px));
   coarse.width_px = std::max(1, static_cast<int>(view.width_px / shrink));
   coarse.height_px = std::max(1, static_cast<int>(view.height_px / shrink));
-  const Ground ground(ecosystem.terrain, coarse);
-  svg += group("ground", "Ground") + ">\n<rect " + box() + " fill=\"" + hex(paper_colour) + "\"/>\n";
-  if (!ground.plain()) {
-    svg += "<image " + box() + " preserveAspectRatio=\"none\" xlink:href=\"data:image/png;base64," +
-           base64(png_of(draw_ground(coarse, ground))) + "\"/>\n";
-  }
+  return coarse;
+}
+
+void embed(std::string& svg, const Pixels& pixels, const View& view) {
+  svg += "<image " + size_of(view) + " preserveAspectRatio=\"none\" xlink:href=\"data:image/png;base64," +
+         base64(png_of(pixels)) + "\"/>\n";
+}
+
+void write_ground(std::string& svg, const Ground& ground, const View& view) {
+  svg += group("ground", "Ground") + ">\n<rect " + size_of(view) + " fill=\"" + hex(paper_colour) + "\"/>\n";
+  if (!ground.plain()) embed(svg, draw_ground(coarse(view), ground), view);
+  svg += "</g>\n";
+}
+
+void write_heat(std::string& svg, const Ground& ground, const Heat& heat, const View& view) {
+  svg += group("suitability", "Suitability") + ">\n";
+  embed(svg, draw_heat(coarse(view), ground, heat), view);
   svg += "</g>\n";
 }
 
 double hexagon_across_px(const PreviewOptions& options) { return std::max(4.5, options.width_px / 320.0); }
 
-std::string caption_of(const Census& census, const View& view, const PreviewOptions& options, bool aggregated) {
+std::string caption_of(const ecosystem::Ecosystem& ecosystem, const Census& census, const View& view,
+                       const PreviewOptions& options, bool aggregated) {
+  if (options.subject == Subject::suitability) return heat_caption(ecosystem, census);
   std::string text;
   if (census.plants == 0) {
     text = "No plants stand in this view.";
@@ -247,29 +264,9 @@ std::vector<std::vector<Crown>> crowns_of(const ecosystem::Layer& layer, const s
   return crowns;
 }
 
-}  // namespace
-
-void write_svg(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& options,
-               const std::filesystem::path& path) {
-  const base::Box box = box_of(ecosystem, options);
-  const Census census = take_census(ecosystem, options, box);
-  const bool aggregated = census.plants > options.most_circles;
-  const Layout layout = make_layout(ecosystem, options, census, box,
-                                    [&](const View& view) { return caption_of(census, view, options, aggregated); });
-  const View& view = layout.view;
-
-  std::string svg = fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
-      "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
-      "{1}\" "
-      "font-family=\"{2}\">\n<title>{3}</title>\n<defs><clipPath id=\"map-area\"><rect width=\"{4}\" "
-      "height=\"{5}\"/></clipPath></defs>\n",
-      layout.width_px, layout.height_px, font_families, xml_escaped(layout.title), view.width_px, view.height_px);
-  if (options.decorated) svg += "<rect width=\"100%\" height=\"100%\" fill=\"" + hex(page_colour) + "\"/>\n";
-  svg += fmt::format("<g id=\"map\" transform=\"translate({} {})\" clip-path=\"url(#map-area)\">\n", layout.map_x,
-                     layout.map_y);
-  write_ground(svg, ecosystem, view);
+// All plants: a group a layer, in it a group a species.
+void write_plants(std::string& svg, const ecosystem::Ecosystem& ecosystem, const PreviewOptions& options,
+                  const Census& census, const View& view, bool aggregated) {
   Names names;
   for (std::size_t l = 0; l < ecosystem.layers.size(); ++l) {
     const ecosystem::Layer& layer = ecosystem.layers[l];
@@ -291,6 +288,38 @@ void write_svg(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& opti
       }
     }
     svg += "</g>\n";
+  }
+}
+
+}  // namespace
+
+void write_svg(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& options,
+               const std::filesystem::path& path) {
+  const base::Box box = box_of(ecosystem, options);
+  const Census census = take_census(ecosystem, options, box);
+  const bool aggregated = census.plants > options.most_circles;
+  const Layout layout = make_layout(ecosystem, options, census, box, [&](const View& view) {
+    return caption_of(ecosystem, census, view, options, aggregated);
+  });
+  const View& view = layout.view;
+
+  std::string svg = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
+      "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
+      "{1}\" "
+      "font-family=\"{2}\">\n<title>{3}</title>\n<defs><clipPath id=\"map-area\"><rect width=\"{4}\" "
+      "height=\"{5}\"/></clipPath></defs>\n",
+      layout.width_px, layout.height_px, font_families, xml_escaped(layout.title), view.width_px, view.height_px);
+  if (options.decorated) svg += "<rect width=\"100%\" height=\"100%\" fill=\"" + hex(page_colour) + "\"/>\n";
+  svg += fmt::format("<g id=\"map\" transform=\"translate({} {})\" clip-path=\"url(#map-area)\">\n", layout.map_x,
+                     layout.map_y);
+  const Ground ground(ecosystem.terrain, coarse(view));
+  write_ground(svg, ground, view);
+  if (options.subject == Subject::suitability) {
+    write_heat(svg, ground, Heat(ecosystem, census), view);
+  } else {
+    write_plants(svg, ecosystem, options, census, view, aggregated);
   }
   svg += "</g>\n";
   for (const Part& part : layout.parts) {

@@ -7,6 +7,7 @@
 
 #include "silvasim/base/error.h"
 #include "silvasim/base/parallel.h"
+#include "silvasim/export/heat.h"
 
 namespace silvasim::exports {
 
@@ -47,14 +48,17 @@ void choose(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& options
   }
 }
 
-void require_probabilities(const ecosystem::Ecosystem& ecosystem, const Census& census) {
+void require(const ecosystem::Ecosystem& ecosystem, const Census& census, Subject subject) {
+  if (subject == Subject::species) return;
+  const bool maps = subject == Subject::suitability;
   for (std::size_t l = 0; l < ecosystem.layers.size(); ++l) {
+    const ecosystem::Layer& layer = ecosystem.layers[l];
     const bool shown = std::any_of(census.layers[l].begin(), census.layers[l].end(), [](auto& c) { return c.shown; });
-    if (!shown || ecosystem.layers[l].plants.empty() || !ecosystem.layers[l].probabilities.empty()) continue;
-    throw base::ConfigError({"--layer"},
-                            fmt::format("the ecosystem holds no growth probabilities for its layer \"{}\"; "
-                                        "simulate it again with: silvasim run ... --probabilities",
-                                        ecosystem.layers[l].name));
+    const bool held = maps ? !layer.suitability.empty() : layer.plants.empty() || !layer.probabilities.empty();
+    if (!shown || held) continue;
+    throw base::ConfigError({"--layer"}, fmt::format("the ecosystem holds no {} for its layer \"{}\"; "
+                                                     "simulate it again with: silvasim run ... --probabilities",
+                                                     maps ? "suitability map" : "growth probabilities", layer.name));
   }
 }
 
@@ -84,7 +88,7 @@ Census take_census(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& 
     census.offsets.push_back(ecosystem::site_offsets(layer.tile_set, layer.tiling));
   }
   choose(ecosystem, options, census);
-  if (options.subject == Subject::probability) require_probabilities(ecosystem, census);
+  require(ecosystem, census, options.subject);
 
   double radius_sum = 0;
   for (std::size_t l = 0; l < ecosystem.layers.size(); ++l) {
@@ -125,6 +129,7 @@ Census take_census(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& 
       }
       if (count.plants > 0) count.mean_probability /= static_cast<double>(count.plants);
       if (!count.shown) continue;
+      if (options.subject == Subject::suitability) count.mean_suitability = mean_suitability(layer.suitability, s, box);
       census.plants += count.plants;
       radius_sum += radius;
     }

@@ -30,6 +30,7 @@ struct SpeciesCount {
   std::uint64_t plants = 0;     // standing in the box
   double crown_area_m2 = 0;     // of those
   double mean_probability = 0;  // of those; 0 where there is none
+  double mean_suitability = 0;  // of the place in the box; only on maps of it
 };
 
 struct Census {
@@ -42,7 +43,7 @@ struct Census {
 // The box to show: the option's, or the ecosystem's extent. Errors: base::ConfigError where there is no land in it.
 base::Box box_of(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& options);
 
-// Errors: base::ConfigError for a species that the ecosystem has not, and for probabilities that it does not hold.
+// Errors: base::ConfigError for a species that the ecosystem has not, and for probabilities or maps that it does not hold.
 Census take_census(const ecosystem::Ecosystem& ecosystem, const PreviewOptions& options, const base::Box& box);
 
 // Calls visit(ecosystem::Plant) in file order for the standing plants whose tiles touch `box`; some lie outside of it.

@@ -57,19 +57,23 @@ void write_points(const std::filesystem::path& path, PointFormat format, const P
                   const std::function<std::optional<PointBlock>()>& next_block, std::size_t count = 0,
                   const base::Progress& progress = {});
 
-// One band, row by row, row 0 northernmost.
-struct Band {
+// What all bands of a raster share.
+struct Grid {
   int columns = 0;
   int rows = 0;
   double west = 0, north = 0;              // the grid's corner
   double cell_width = 1, cell_height = 1;  // metres, > 0
-  std::variant<std::span<const float>, std::span<const std::uint8_t>> values;
-  std::optional<double> no_data;  // NaN is allowed for float
-  std::string crs_wkt;            // empty: none
-  std::string description;        // the band's name, e.g. "probability"
+  std::optional<double> no_data;           // NaN is allowed for float
+  std::string crs_wkt;                     // empty: none
 };
 
-// A tiled, compressed GeoTIFF, read back once to see that it is whole.
-void write_geotiff(const std::filesystem::path& path, const Band& band);
+// Row by row, row 0 northernmost.
+struct Band {
+  std::variant<std::span<const float>, std::span<const std::uint8_t>> values;
+  std::string description;  // the band's name, e.g. "probability"
+};
+
+// A tiled, compressed GeoTIFF, read back once to see that it is whole. One band at least, all of one type.
+void write_geotiff(const std::filesystem::path& path, const Grid& grid, std::span<const Band> bands);
 
 }  // namespace silvasim::fields

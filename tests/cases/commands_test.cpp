@@ -82,6 +82,25 @@ TEST_F(Commands, PreviewDrawsMapsAndProbabilities) {
                 .code,
             0);
   EXPECT_TRUE(std::filesystem::exists(folder / "m.pgw"));
+  for (const char* const picture : {"s.png", "s.svg"}) {
+    EXPECT_EQ(silvasim({"preview", grown(), "-o", folder / picture, "--layer", "suitability"}).code, 0);
+  }
+}
+
+TEST_F(Commands, MapsOfThePlaceAreKeptWhereTheyAreAskedFor) {
+  const Folder folder;
+  const std::string example = source("configs/01-first-steps/ecosystem.xml");
+  ASSERT_EQ(silvasim({"run", example, "-o", folder / "a.silva", "--tif", folder / "a.tif", "-q"}).code, 0);
+  EXPECT_THAT(program({"gdalinfo", folder / "a.tif"}).out, HasSubstr("Description = "));
+  ASSERT_EQ(silvasim({"export", folder / "a.silva", "-o", folder / "b.tif", "-q"}).code, 0);
+  EXPECT_EQ(read(folder / "a.tif"), read(folder / "b.tif"));
+  ASSERT_EQ(silvasim({"run", example, "-o", folder / "c.silva", "-q"}).code, 0);
+  for (const Outcome& outcome :
+       {silvasim({"export", folder / "c.silva", "-o", folder / "c.tif", "-q"}),
+        silvasim({"preview", folder / "c.silva", "-o", folder / "c.png", "--layer", "suitability", "-q"})}) {
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("simulate it again with: silvasim run ... --probabilities"));
+  }
 }
 
 TEST_F(Commands, ExplainTellsASentence) {

@@ -32,8 +32,8 @@ TEST(Formats, are_found_by_name_or_extension) {
 TEST(Formats, unknown_ones_are_answered_with_known_ones) {
   const testing::Folder folder;
   EXPECT_THAT(message_of("gpgk", folder / "f"), HasSubstr("did you mean \"gpkg\"?"));
-  EXPECT_THAT(message_of("shapefile", folder / "f"), HasSubstr("give one of csv, gpkg, geojson"));
-  EXPECT_THAT(message_of("", folder / "f.xyz"), HasSubstr("give one of csv, gpkg, geojson"));
+  EXPECT_THAT(message_of("shapefile", folder / "f"), HasSubstr("give one of csv, gpkg, fgb, geojson, tif"));
+  EXPECT_THAT(message_of("", folder / "f.xyz"), HasSubstr("give one of csv, gpkg, fgb, geojson, tif"));
   EXPECT_TRUE(folder.names().empty());
 }
 

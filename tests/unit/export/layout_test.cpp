@@ -116,7 +116,8 @@ TEST(Layout, nothing_overlaps_whatever_the_names_numbers_and_shapes) {
     }
     PreviewOptions options;
     options.width_px = 240 + static_cast<int>(random.next_below(2400));
-    if (random.next_below(2) == 0) options.subject = Subject::probability;
+    const Subject subjects[] = {Subject::species, Subject::probability, Subject::suitability};
+    options.subject = subjects[random.next_below(3)];
     const Layout layout = layout_of(land, options);
     expect_tidy(layout, "seed " + std::to_string(seed) + " round " + std::to_string(round) + " width " +
                             std::to_string(options.width_px));

@@ -101,6 +101,26 @@ void plant(ecosystem::Layer& layer, const MadeLand& made, std::uint32_t number) 
   }
 }
 
+// Any shares on cells of 20 m, some of them without sites.
+void map_suitability(ecosystem::Layer& layer, const MadeLand& made) {
+  ecosystem::SuitabilityMap& map = layer.suitability;
+  if (layer.species.empty()) return;
+  map.cell_m = 20;
+  map.columns = static_cast<int>(std::ceil(made.columns * made.side_m / map.cell_m));
+  map.rows = static_cast<int>(std::ceil(made.rows * made.side_m / map.cell_m));
+  map.west = layer.north_west.x;
+  map.north = layer.north_west.y;
+  for (int s = 0; s < static_cast<int>(layer.species.size()); ++s) {
+    for (int row = 0; row < map.rows; ++row) {
+      for (int column = 0; column < map.columns; ++column) {
+        const bool bare = (column + 3 * row) % 11 == 0;
+        const int share = (column * 5 + row * 3 + s * 60) % 255;
+        map.shares.push_back(bare ? ecosystem::SuitabilityMap::no_site : static_cast<std::uint8_t>(share));
+      }
+    }
+  }
+}
+
 ecosystem::Species species_of(int index, const MadeLand& made) {
   const Name& name = flora[static_cast<std::size_t>(index) % flora.size()];
   ecosystem::Species species;
@@ -129,6 +149,7 @@ ecosystem::Ecosystem make_land(const MadeLand& made) {
   layer.name = "trees";
   for (int s = 0; s < made.species; ++s) layer.species.push_back(species_of(s, made));
   plant(layer, made, 0);
+  if (made.probabilities) map_suitability(layer, made);
   ecosystem.layers.push_back(std::move(layer));
   if (made.terrain) {
     ecosystem::Terrain& terrain = ecosystem.terrain;
@@ -168,6 +189,7 @@ void add_shrubs(ecosystem::Ecosystem& ecosystem, const MadeLand& made) {
   }
   small.species = 2;
   plant(layer, small, 1);
+  if (made.probabilities) map_suitability(layer, small);
   ecosystem.layers.push_back(std::move(layer));
 }
 

@@ -19,7 +19,7 @@ struct MadeLand {
   int species = 3;
   double stands = 0.8;  // share of the sites that bear a plant
   bool terrain = true;
-  bool probabilities = true;
+  bool probabilities = true;  // and suitability maps
   base::Point south_west{600000, 5190000};
   std::string crs_wkt = {};
 };

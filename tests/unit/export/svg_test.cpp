@@ -218,6 +218,23 @@ TEST(Svg, embeds_the_relief_and_nothing_from_elsewhere) {
   EXPECT_EQ(Document(svg_of(flat)).count("//s:image"), 0u);
 }
 
+TEST(Svg, a_map_of_suitability_is_a_picture_of_its_own_over_the_relief) {
+  ecosystem::Ecosystem land = make_land({});
+  PreviewOptions options;
+  options.subject = Subject::suitability;
+  const Document document(svg_of(land, options));
+  EXPECT_TRUE(document.well_formed());
+  EXPECT_EQ(document.count("//s:g[@id='ground']/s:image"), 1u);
+  EXPECT_EQ(document.count("//s:g[@id='suitability'][@i:groupmode='layer']/s:image"), 1u);
+  EXPECT_EQ(document.count("//s:circle"), 0u);
+  EXPECT_EQ(document.count("//s:g[starts-with(@id,'species-')]"), 0u);
+  EXPECT_GT(document.count("//s:g[@id='legend']/s:rect"), 60u);
+  EXPECT_EQ(document.count("//s:g[@id='legend']/s:text[.='Suitability of the place']"), 1u);
+  for (const ecosystem::Species& species : land.layers[0].species) {
+    EXPECT_EQ(document.count("//s:g[@id='legend']/s:text[.='" + species.name + "']"), 1u);
+  }
+}
+
 TEST(Svg, has_the_same_bytes_with_any_number_of_threads) {
   MadeLand made;
   made.columns = 20;

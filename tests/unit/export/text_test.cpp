@@ -23,6 +23,11 @@ TEST(Text, lengths_and_shares_read_well) {
   EXPECT_EQ(length(250), "250 m");
   EXPECT_EQ(length(0.2), "20 cm");
   EXPECT_EQ(length(4e6), "4\u2009000 km");
+  EXPECT_EQ(length(1e15), "1e+15 m");
+  for (const double any : {0.0, -5.0, 1e18, 2e19, -1e300, 1e300, 1.7e308, 5e-324}) {
+    EXPECT_NO_THROW(length(any)) << any;
+    for (const int decimals : {0, 2, 9}) EXPECT_NO_THROW(grouped(any, decimals)) << any;
+  }
   EXPECT_EQ(percent(0), "0 %");
   EXPECT_EQ(percent(0.0001), "< 0.1 %");
   EXPECT_EQ(percent(0.1234), "12.3 %");
@@ -50,12 +55,20 @@ TEST(Text, what_is_no_text_is_replaced) {
   EXPECT_EQ(printable("a\nb\tc"), "a b c");
   EXPECT_EQ(printable(std::string("a\0b", 3)), "a\uFFFDb");
   EXPECT_EQ(printable("Bu\xC3\xA4"), "Bu\xC3\xA4");
+  EXPECT_EQ(printable("\x1b[2J\xC2\x9B"), "\uFFFD[2J\uFFFD");  // both of a terminal's escapes
   EXPECT_EQ(printable("\xC3"), "\uFFFD");
   EXPECT_EQ(printable("\xC0\xAF"), "\uFFFD\uFFFD");              // overlong slash
   EXPECT_EQ(printable("\xED\xA0\x80"), "\uFFFD\uFFFD\uFFFD");    // half a surrogate pair
   EXPECT_EQ(printable("\xEF\xBF\xBE"), "\uFFFD\uFFFD\uFFFD");    // U+FFFE, which XML forbids
   EXPECT_EQ(printable("\xF0\x9F\x8C\xB2"), "\xF0\x9F\x8C\xB2");  // a tree
   EXPECT_EQ(xml_escaped("<a b=\"c\" d='e'> & \x01"), "&lt;a b=&quot;c&quot; d=&#39;e&#39;&gt; &amp; \uFFFD");
+}
+
+TEST(Text, shortening_counts_characters) {
+  EXPECT_EQ(base::shortened("Buäche", 6), "Buäche");
+  EXPECT_EQ(base::shortened("Buäche", 3), "Buä...");
+  EXPECT_EQ(base::shortened("a\x1b[2J", 2), "a\uFFFD...");
+  EXPECT_EQ(base::shortened("", 0), "");
 }
 
 TEST(Text, fitting_cuts_at_characters_and_never_exceeds_the_room) {

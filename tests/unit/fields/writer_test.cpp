@@ -152,18 +152,17 @@ TEST(Writer, GeoTiffReadsBack) {
   std::vector<float> values;
   for (int i = 0; i < 300 * 200; ++i)
     values.push_back(i % 17 == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(std::sqrt(i)));
-  Band band;
-  band.columns = 300;
-  band.rows = 200;
-  band.west = 585000;
-  band.north = 5200000;
-  band.cell_width = 10;
-  band.cell_height = 20;
-  band.values = std::span<const float>(values);
-  band.no_data = std::numeric_limits<double>::quiet_NaN();
-  band.crs_wkt = wkt_of(crs_from_text("EPSG:32610"));
-  band.description = "probability";
-  write_geotiff(folder / "p.tif", band);
+  Grid grid;
+  grid.columns = 300;
+  grid.rows = 200;
+  grid.west = 585000;
+  grid.north = 5200000;
+  grid.cell_width = 10;
+  grid.cell_height = 20;
+  grid.no_data = std::numeric_limits<double>::quiet_NaN();
+  grid.crs_wkt = wkt_of(crs_from_text("EPSG:32610"));
+  Band band{std::span<const float>(values), "probability"};
+  write_geotiff(folder / "p.tif", grid, {&band, 1});
   const FieldSet set = load_fields({}, {raster_field(folder / "p.tif", true)});
   EXPECT_EQ(set.frame.extent, (base::Box{585000, 5196000, 588000, 5200000}));
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -172,9 +171,45 @@ TEST(Writer, GeoTiffReadsBack) {
   }
   const std::vector<std::uint8_t> bytes(300 * 200, 7);
   band.values = std::span<const std::uint8_t>(bytes);
-  band.no_data = 255;
-  write_geotiff(folder / "b.tif", band);
+  grid.no_data = 255;
+  write_geotiff(folder / "b.tif", grid, {&band, 1});
   EXPECT_EQ(load_fields({}, {raster_field(folder / "b.tif", true)}).fields[0].raster.at(5, 5), 7);
+}
+
+TEST(Writer, GeoTiffBandsReadBack) {
+  const TemporaryFolder folder;
+  constexpr int count = 5;
+  std::vector<std::vector<float>> values(count, std::vector<float>(70 * 30));
+  std::vector<Band> bands;
+  for (int b = 0; b < count; ++b) {
+    for (int i = 0; i < 70 * 30; ++i) values[std::size_t(b)][std::size_t(i)] = static_cast<float>(i % 97 + b) / 101.0f;
+    bands.push_back({std::span<const float>(values[std::size_t(b)]), "Érable <" + std::to_string(b) + ">"});
+  }
+  Grid grid;
+  grid.columns = 70;
+  grid.rows = 30;
+  grid.no_data = -1;
+  write_geotiff(folder / "p.tif", grid, bands);
+  const std::unique_ptr<GDALDataset> data(GDALDataset::Open((folder / "p.tif").c_str(), GDAL_OF_RASTER));
+  ASSERT_TRUE(data);
+  ASSERT_EQ(data->GetRasterCount(), count);
+  std::vector<float> read(70 * 30);
+  for (int b = 0; b < count; ++b) {
+    GDALRasterBand& band = *data->GetRasterBand(b + 1);
+    EXPECT_EQ(band.GetDescription(), bands[std::size_t(b)].description);
+    EXPECT_EQ(band.GetNoDataValue(), -1);
+    EXPECT_NE(band.GetColorInterpretation(), GCI_AlphaBand);
+    ASSERT_EQ(band.RasterIO(GF_Read, 0, 0, 70, 30, read.data(), 70, 30, GDT_Float32, 0, 0, nullptr), CE_None);
+    EXPECT_EQ(read, values[std::size_t(b)]);
+  }
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) ++files, (void)entry;
+  EXPECT_EQ(files, 1) << "the descriptions stand in the file itself";
+
+  const std::vector<std::uint8_t> bytes(70 * 30);
+  bands.push_back({std::span<const std::uint8_t>(bytes), ""});
+  EXPECT_THROW(write_geotiff(folder / "q.tif", grid, bands), std::logic_error);
+  EXPECT_THROW(write_geotiff(folder / "q.tif", grid, {}), std::logic_error);
 }
 
 // A full disk, played by a limit on the size of files.
@@ -203,14 +238,14 @@ TEST(Writer, AFullDiskIsAnError) {
   std::vector<float> noise;
   for (unsigned i = 0, state = 1; i < 400 * 400; ++i)
     noise.push_back(static_cast<float>(state = state * 1664525u + 1013904223u));
-  Band band;
-  band.columns = band.rows = 400;
-  band.values = std::span<const float>(noise);
+  Grid grid;
+  grid.columns = grid.rows = 400;
+  const Band band{std::span<const float>(noise), ""};
   for (const rlim_t limit : {rlim_t{0}, rlim_t{1000}, rlim_t{100000}, rlim_t{300000}}) {
     const SmallFiles small(limit);
     EXPECT_THROW(write(folder / "a.gpkg", PointFormat::geopackage, layer_in("EPSG:32610"), p), base::Error) << limit;
     EXPECT_THROW(write(folder / "a.fgb", PointFormat::flatgeobuf, layer_in(""), p), base::Error) << limit;
-    EXPECT_THROW(write_geotiff(folder / "a.tif", band), base::Error) << limit;
+    EXPECT_THROW(write_geotiff(folder / "a.tif", grid, {&band, 1}), base::Error) << limit;
   }
 }
 
