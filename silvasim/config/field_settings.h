@@ -84,7 +84,7 @@ struct SceneSettings {
   std::optional<base::Box> extent;  // in the scene's CRS; none: the terrain's (or the first georeferenced raster's)
   std::optional<base::Box> extent_geographic;  // in degrees of WGS 84 (west = longitude); at most one of the extents
   std::optional<double> width_m,
-      height_m;         // with neither extent: a local box from (0,0), or the middle of the terrain's
+      height_m;  // with neither extent: a local box from (0,0), or the middle of the terrain's
 };
 
 }  // namespace silvasim::config

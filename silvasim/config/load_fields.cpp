@@ -57,8 +57,8 @@ FieldSettings read_raster(Loading& loading, const Node& node) {
   field.scaled = node.has("scale") || node.has("offset");
   if (node.has("scale")) field.scale = node.number("scale");
   if (field.scale == 0) {
-    loading.error(node.place_of("scale"), "data field \"" + field.name +
-                                              "\": scale=\"0\" would give every cell the same value, its offset");
+    loading.error(node.place_of("scale"),
+                  "data field \"" + field.name + "\": scale=\"0\" would give every cell the same value, its offset");
   }
   if (node.has("offset")) field.offset = node.number("offset");
   if (field.terrain && field.kind == FieldKind::class_code) {
@@ -157,9 +157,12 @@ void read_scene(Loading& loading, const Node& ecosystem, Scenario& scenario) {
     const base::Box box{extent->number("west"), extent->number("south"), extent->number("east"),
                         extent->number("north")};
     const bool degrees = extent->boolean("degrees");
-    if (box.west >= box.east) loading.error(extent->place, "<extent> reversed or empty: west=\"" + to_text(box.west) + "\" is not less than east=\"" + to_text(box.east) + "\"");
+    if (box.west >= box.east)
+      loading.error(extent->place, "<extent> reversed or empty: west=\"" + to_text(box.west) +
+                                       "\" is not less than east=\"" + to_text(box.east) + "\"");
     if (box.south >= box.north)
-      loading.error(extent->place, "<extent> reversed or empty: south=\"" + to_text(box.south) + "\" is not less than north=\"" + to_text(box.north) + "\"");
+      loading.error(extent->place, "<extent> reversed or empty: south=\"" + to_text(box.south) +
+                                       "\" is not less than north=\"" + to_text(box.north) + "\"");
     if (degrees && (box.west < -180 || box.east > 180 || box.south < -90 || box.north > 90)) {
       loading.error(extent->place, "<extent> in degrees lies outside -180 to 180 and -90 to 90");
     }

@@ -51,7 +51,7 @@ SpeciesSettings read_species(Loading& loading, const Node& node, std::size_t num
   if (scale) {
     species.least_scale = scale->number("least");
     if (scale->has("most")) species.most_scale = scale->number("most");
-    if (species.least_scale > species.most_scale) 
+    if (species.least_scale > species.most_scale)
       loading.error(scale->place, "<scale> reversed: least=\"" + to_text(species.least_scale) + "\" is above most=\"" +
                                       to_text(species.most_scale) + "\"");
   }

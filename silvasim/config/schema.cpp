@@ -106,8 +106,8 @@ std::string simple_types() {
   return restricted("NumberValue", blank + number + blank) + restricted("WholeValue", blank + number + blank) +
          restricted("ShareValue", blank + number + blank + "%?" + blank) +
          restricted("LengthValue", blank + number + blank + "(m|km|cm|mm|ft)?" + blank) +
-         restricted("ColourValue", blank + "#[0-9a-fA-F]{6}" + blank) + restricted("TextValue", blank + "\\S[\\S\\s]*") +
-         restricted("NoValue", blank);
+         restricted("ColourValue", blank + "#[0-9a-fA-F]{6}" + blank) +
+         restricted("TextValue", blank + "\\S[\\S\\s]*") + restricted("NoValue", blank);
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ Node Reader::element(const tinyxml2::XMLElement& xml, const ElementRule& rule) {
 bool names_the_schema(const tinyxml2::XMLElement& xml, const tinyxml2::XMLAttribute& attribute) {
   if (!xml.Parent() || !xml.Parent()->ToDocument()) return false;
   const char* const instance = xml.Attribute("xmlns:xsi");
-  if (!instance || trimmed(instance) != "http://www.w3.org/2001/XMLSchema-instance") return false;
+  if (!instance || std::string_view(instance) != "http://www.w3.org/2001/XMLSchema-instance") return false;
   const std::string_view name = attribute.Name();
   return name == "xmlns:xsi" || name == "xsi:noNamespaceSchemaLocation";
 }
@@ -151,15 +151,16 @@ void Reader::content(const tinyxml2::XMLElement& xml, Node& node) {
     const auto* below = child->ToElement();
     if (!below) continue;
     const ElementRule* rule = nullptr;
-    for (const ChildRule& candidate : node.rule->children) {
-      if (dialect.rule(candidate.type).tag == below->Name()) rule = &dialect.rule(candidate.type);
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (known[i] == below->Name()) rule = &dialect.rule(node.rule->children[i].type);
     }
     if (rule) {
       node.children.push_back(element(*below, *rule));
       continue;
     }
     if (full()) continue;
-    std::string message = tag_text(base::shortened(below->Name(), 60)) + " is unknown inside " + tag_text(node.rule->tag);
+    std::string message =
+        tag_text(base::shortened(below->Name(), 60)) + " is unknown inside " + tag_text(node.rule->tag);
     const std::string hint = base::did_you_mean(below->Name(), known);
     if (!hint.empty()) {
       message += hint;
@@ -226,7 +227,8 @@ std::optional<Node> parse_xml(const std::string& text, const std::string& file, 
     return std::nullopt;
   }
   if (document.ErrorID() == tinyxml2::XML_ERROR_PARSING_DECLARATION) {
-    errors.push_back({{file, document.ErrorLineNum(), 0}, "an instruction (<?...?>) after the first element or comment"});
+    errors.push_back(
+        {{file, document.ErrorLineNum(), 0}, "an instruction (<?...?>) after the first element or comment"});
     return std::nullopt;
   }
 
@@ -242,9 +244,9 @@ std::optional<Node> parse_xml(const std::string& text, const std::string& file, 
   const tinyxml2::XMLElement* first = document.RootElement();
   Reader reader{file, dialect, errors, places};
   if (rule.tag != first->Name()) {
-    errors.push_back({reader.at(places.elements.front().at),
-                      "the root element is " + tag_text(base::shortened(first->Name(), 60)) + "; expected " +
-                          tag_text(rule.tag)});
+    errors.push_back(
+        {reader.at(places.elements.front().at),
+         "the root element is " + tag_text(base::shortened(first->Name(), 60)) + "; expected " + tag_text(rule.tag)});
     return std::nullopt;
   }
   return reader.element(*first, rule);

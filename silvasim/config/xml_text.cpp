@@ -58,7 +58,8 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; 
 
 // What may begin a name, and what may follow. Letters beyond ASCII are taken as they come: the dialect has none.
 bool begins_name(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == ':' || static_cast<unsigned char>(c) >= 128;
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == ':' ||
+         static_cast<unsigned char>(c) >= 128;
 }
 bool is_in_name(char c) { return begins_name(c) || (c >= '0' && c <= '9') || c == '-' || c == '.'; }
 
@@ -188,7 +189,8 @@ class Scanner {
   void encoding(std::size_t at, std::string_view name) const {
     if (same_but_case(name, "utf-8")) return;
     const bool ascii = same_but_case(name, "us-ascii") || same_but_case(name, "ascii");
-    const bool plain = std::all_of(text_.begin(), text_.end(), [](char c) { return static_cast<unsigned char>(c) < 128; });
+    const bool plain =
+        std::all_of(text_.begin(), text_.end(), [](char c) { return static_cast<unsigned char>(c) < 128; });
     if (!ascii || !plain) fail(at, "the file says it is in \"" + shown(name) + "\"; save it as UTF-8");
   }
 
@@ -207,8 +209,9 @@ class Scanner {
   }
 
   void check_ampersands(std::size_t from, std::size_t to) const {
-    for (std::size_t at = text_.find('&', from); at < to; at = text_.find('&', at + 1)) {
-      if (!known_entity(text_.substr(at, to - at))) fail(at, "unknown entity; write &amp; for an ampersand");
+    const std::string_view part = text_.substr(from, to - from);
+    for (std::size_t at = part.find('&'); at != std::string_view::npos; at = part.find('&', at + 1)) {
+      if (!known_entity(part.substr(at))) fail(from + at, "unknown entity; write &amp; for an ampersand");
     }
   }
 
@@ -249,7 +252,8 @@ class Scanner {
     at_ += 2;
     const std::string_view target = name();
     if (same_but_case(target, "xml")) fail(start, "the XML declaration must stand at the very start of the file");
-    if (target.empty() || target.find(':') != std::string_view::npos || (!next_is("?>") && !skip_blanks())) fail(start, "<? must be followed by a name");
+    if (target.empty() || target.find(':') != std::string_view::npos || (!next_is("?>") && !skip_blanks()))
+      fail(start, "<? must be followed by a name");
     at_ = start;
     skip_past("?>", "an instruction");
   }
@@ -274,7 +278,8 @@ class Scanner {
   void start_tag() {
     const std::size_t start = at_++;
     const std::string_view tag = name();
-    if (tag.empty()) fail(start, "< must be followed by an element's name; found " + found() + "; write &lt; for the sign");
+    if (tag.empty())
+      fail(start, "< must be followed by an element's name; found " + found() + "; write &lt; for the sign");
     if (open_.empty() && !places_.elements.empty()) fail(start, "a second root element; XML has one");
     if (open_.size() >= most_depth) fail(start, "elements are nested too deep");
     if (places_.elements.size() >= most_elements) {
@@ -303,13 +308,15 @@ class Scanner {
     if (word.empty()) fail(start, tag_text(tag) + ": expected an attribute, > or />; found " + found());
     const std::string which = tag_text(tag) + " " + shown(word);
     if (!blank) fail(start, which + ": a blank is missing before the attribute");
-    if (std::find(names_.begin(), names_.end(), word) != names_.end()) fail(start, which + ": the attribute stands twice");
+    if (std::find(names_.begin(), names_.end(), word) != names_.end())
+      fail(start, which + ": the attribute stands twice");
     if (names_.size() >= most_attributes) {
       fail(start, tag_text(tag) + " has more than " + std::to_string(most_attributes) + " attributes");
     }
     names_.push_back(word);
     places_.attributes.push_back(mark(start));
-    const std::string_view value = quoted(start, which + ": expected " + which.substr(which.find(' ') + 1) + "=\"...\"");
+    const std::string_view value =
+        quoted(start, which + ": expected " + which.substr(which.find(' ') + 1) + "=\"...\"");
     const std::size_t first = at_ - 1 - value.size();
     if (const std::size_t less = value.find('<'); less != std::string_view::npos) {
       fail(start, which + ": < inside the value; write &lt;, or close the value by its quotation mark");

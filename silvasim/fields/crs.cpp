@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <string_view>
 #include <vector>
 
 #include "silvasim/base/error.h"
+#include "silvasim/base/words.h"
 #include "silvasim/fields/drivers.h"
 #include "silvasim/fields/gdal_log.h"
 
@@ -25,17 +27,21 @@ Crs prepared(OGRSpatialReference reference) {
   return std::make_shared<const OGRSpatialReference>(std::move(reference));
 }
 
-// PROJ strings and WKT can name files with parameters, which PROJ would open: "+init=/a/file:1", "+nadgrids=/a/file",
-// PARAMETERFILE["...", "/a/file"]. Names without a folder are PROJ's own and harmless.
-bool names_a_file(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  for (const std::string_view key : {"init=", "grids=", "file=", "parameterfile["}) {
-    for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
-      const std::size_t end = text.find_first_of(key.back() == '[' ? "]" : " +\t\n", at + key.size());
-      const std::string_view value = std::string_view(text).substr(at, end == std::string::npos ? end : end - at);
-      if (value.find_first_of("/\\") != std::string_view::npos) return true;
-    }
+// PROJ strings and WKT can name files with parameters, which PROJ opens as soon as GDAL reads the text: "+init=/a/file:1",
+// "+nadgrids=/a/file", PARAMETERFILE["...", "/a/file"]. Names without a folder are PROJ's own and harmless. Both languages
+// allow blanks, brackets and quotation marks of several kinds, hence no look at where exactly a slash stands.
+bool names_a_file(const std::string& text) {
+  std::string words;  // in lower case, without blanks about equals signs
+  for (const char c : text) {
+    const auto is_blank = [](char each) { return std::strchr(" \t\n\v\f\r", each) != nullptr; };
+    while (c == '=' && !words.empty() && is_blank(words.back())) words.pop_back();
+    const bool drop = is_blank(c) && !words.empty() && words.back() == '=';
+    if (!drop) words += c >= 'A' && c <= 'Z' ? char(c + 32) : c;
+  }
+  const std::size_t slash = words.find_last_of("/\\");
+  if (slash == std::string::npos) return false;
+  for (const char* const key : {"init=", "grids=", "file=", "model=", "parameterfile", "proj4_grids", "proj-based"}) {
+    if (words.find(key) < slash) return true;
   }
   return false;
 }
@@ -46,8 +52,14 @@ Crs crs_from_text(const std::string& text) {
   prepare_gdal();
   constexpr std::size_t longest = 64 << 10;
   if (text.size() > longest) throw base::Error("the text of the CRS is longer than 64 kB");
-  const std::string shown = text.size() > 80 ? text.substr(0, 80) + "..." : text;
-  if (names_a_file(text)) throw base::Error("\"" + shown + "\" names a file; a CRS may not");
+  const std::string shown = base::shortened(text, 80);
+  const auto refuse_files = [&](const std::string& written) {
+    if (names_a_file(written)) throw base::Error("\"" + shown + "\" names a file; a CRS may not");
+  };
+  refuse_files(text);
+  if (const std::size_t first = text.find_first_not_of(" \t\r\n"); first != std::string::npos && text[first] == '{') {
+    throw base::Error("a CRS in PROJJSON is not read; write it like \"EPSG:32610\", or as WKT");
+  }
   static const char* const limits[] = {"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
   GdalLog log;
   OGRSpatialReference reference;
@@ -55,10 +67,13 @@ Crs crs_from_text(const std::string& text) {
     throw base::Error("\"" + shown + "\" is no known CRS; write it like \"EPSG:32610\", or as WKT");
   }
   if (reference.IsGeocentric()) throw base::Error("\"" + shown + "\" is geocentric; a projected CRS is needed");
-  return prepared(std::move(reference));
+  Crs crs = prepared(std::move(reference));
+  refuse_files(wkt_of(crs));
+  return crs;
 }
 
 Crs crs_from_gdal(const OGRSpatialReference* reference) {
+  const GdalLog quiet;
   if (!reference || reference->IsEmpty() || reference->IsLocal()) return nullptr;
   if (!reference->IsProjected() && !reference->IsGeographic()) return nullptr;
   Crs crs = prepared(*reference);
@@ -86,6 +101,7 @@ std::string wkt_of(const Crs& crs) {
 
 std::string name_of(const Crs& crs) {
   if (!crs) return "local metres";
+  const GdalLog quiet;
   const char* const name = crs->GetName();
   const char* const authority = crs->GetAuthorityName(nullptr);
   const char* const code = crs->GetAuthorityCode(nullptr);
@@ -94,15 +110,20 @@ std::string name_of(const Crs& crs) {
   return text;
 }
 
-bool is_geographic(const Crs& crs) { return crs && crs->IsGeographic(); }
+bool is_geographic(const Crs& crs) {
+  const GdalLog quiet;
+  return crs && crs->IsGeographic();
+}
 
 bool is_in_metres(const Crs& crs) {
   if (!crs) return true;
+  const GdalLog quiet;
   return crs->IsProjected() && std::abs(crs->GetLinearUnits() - 1) < 1e-9;
 }
 
 bool same(const Crs& a, const Crs& b) {
   if (!a || !b) return !a && !b;
+  const GdalLog quiet;
   static const char* const options[] = {"CRITERION=EQUIVALENT_EXCEPT_AXIS_ORDER_GEOGCRS",
                                         "IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", "IGNORE_COORDINATE_EPOCH=YES",
                                         nullptr};

@@ -14,6 +14,7 @@
 
 #include "silvasim/base/error.h"
 #include "silvasim/base/file.h"
+#include "silvasim/base/words.h"
 #include "silvasim/fields/drivers.h"
 #include "silvasim/fields/gdal_log.h"
 
@@ -119,6 +120,7 @@ void VectorFile::open() {
   dataset_.reset(GDALDataset::Open(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_INTERNAL,
                                    vector_driver_names(), options.data(), nullptr));
   if (dataset_ && gate && !gate->guarded()) throw base::Error("SQLite does not let " + shown + " be guarded");
+  if (gate) connection_ = gate->connection();
   gate.reset();
   if (!dataset_ && budget_.exhausted()) {
     throw base::Error("data field \"" + field.name + "\": cannot read " + shown + ": " + endless_query());
@@ -133,10 +135,48 @@ void VectorFile::open() {
     fail_at(field, "layer \"" + std::string(layer_->GetName()) + "\" of " + shown + " has no geometry" +
                        (has_suffix(field.path, ".csv") ? "; a CSV needs columns x and y, lon and lat, or WKT" : ""));
   }
-  log.clear();
-  if (!field.where.empty() && (layer_->SetAttributeFilter(field.where.c_str()) != OGRERR_NONE || log.failed())) {
-    fail_at(field, "where=\"" + field.where + "\" cannot be understood: " + log.reason());
+  if (!field.where.empty()) set_where();
+}
+
+// Most formats understand the filter at once. SQLite does so when the first feature is read; what fails then, and does not
+// without the filter, is the filter's fault.
+void VectorFile::set_where() {
+  std::string reason;
+  const auto first_is_read = [&](const char* where, GdalLog& log) {
+    log.clear();
+    if (layer_->SetAttributeFilter(where) != OGRERR_NONE) return false;
+    layer_->ResetReading();
+    const std::unique_ptr<OGRFeature> feature{layer_->GetNextFeature()};
+    if (log.failed() && connection_) reason = last_error(connection_);
+    layer_->ResetReading();
+    return !log.failed();
+  };
+  GdalLog log;
+  if (first_is_read(field_.where.c_str(), log) || budget_.exhausted()) return;  // who reads on says what is exhausted
+  const std::string said = connection_ ? reason : log.reason();
+  if (first_is_read(nullptr, log)) fail_where(base::shortened(said, 200));
+  layer_->SetAttributeFilter(field_.where.c_str());
+}
+
+void VectorFile::fail_where(const std::string& reason) const {
+  std::vector<std::string> columns;
+  OGRFeatureDefn& definition = *layer_->GetLayerDefn();
+  if (const char* const id = layer_->GetFIDColumn(); id && *id) columns.emplace_back(id);
+  for (int i = 0; i < definition.GetFieldCount(); ++i) columns.emplace_back(definition.GetFieldDefn(i)->GetNameRef());
+  // The word that is unknown, from `no such column: wrong` and `"wrong" not recognised as an available field`.
+  std::string what = reason, word;
+  if (const std::size_t at = reason.rfind("no such column: "); at != std::string::npos) {
+    word = reason.substr(reason.find(':', at) + 2);
+  } else if (const std::size_t end = reason.find("\" not recognised"); end != std::string::npos) {
+    const std::size_t first = reason.rfind('"', end - 1);
+    if (first != std::string::npos) word = reason.substr(first + 1, end - first - 1);
   }
+  if (!word.empty()) what = "there is no column \"" + word + "\"";
+  std::string list;
+  for (std::size_t i = 0; i < columns.size() && i < 12; ++i) list += (i ? ", " : "") + columns[i];
+  if (columns.size() > 12) list += ", ...";
+  fail_at(field_, "where=\"" + field_.where + "\" cannot be understood: " + what + "; columns are " +
+                      (columns.empty() ? "none" : list) + base::did_you_mean(word, columns));
 }
 
 void VectorFile::close() {

@@ -39,12 +39,15 @@ class VectorFile {
 
  private:
   void open();
+  void set_where();
+  [[noreturn]] void fail_where(const std::string& reason) const;
   void close();
 
   const config::FieldSettings& field_;
   SqliteBudget budget_;
   bool sqlite_ = false;
-  std::string memory_folder_;  // where a lone .shp was copied to; empty: nowhere
+  sqlite3* connection_ = nullptr;  // GDAL's to a GeoPackage
+  std::string memory_folder_;      // where a lone .shp was copied to; empty: nowhere
   Dataset dataset_;
   OGRLayer* layer_ = nullptr;
 };

@@ -4,6 +4,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
+#include <string>
+
+struct sqlite3;
 
 namespace silvasim::fields {
 
@@ -13,17 +16,22 @@ namespace silvasim::fields {
 class SqliteGate {
  public:
   SqliteGate();
-  bool guarded() const;  // a connection of this thread was guarded since
+  bool guarded() const;         // a connection of this thread was guarded since
+  sqlite3* connection() const;  // that one, while GDAL keeps it open
 
  private:
   std::unique_lock<std::mutex> lock_;
   long before_ = 0;
 };
 
+// What SQLite says of the last thing that was asked of it: "no such column: clas".
+std::string last_error(sqlite3* connection);
+
 bool is_sqlite(const std::filesystem::path& path);  // by its first bytes
 
 // While it lives, SQLite statements of this thread stop with an error after so many steps of its virtual machine,
-// because a view inside a GeoPackage can loop for ever. One step takes 10 to 200 ns.
+// because a view inside a GeoPackage can loop for ever. One step takes 10 to 200 ns. No value may be longer than the file
+// (1 MiB at least, 256 MiB at most).
 class SqliteBudget {
  public:
   explicit SqliteBudget(std::uint64_t file_bytes);

@@ -41,10 +41,10 @@ std::vector<ElementRule> plant_rules() {
       {"Neighbourhood",
        "neighbourhood",
        "How far the plant acts on neighbours.",
-       {required(within(
-           attribute("radius", VT::length,
-                     "of its field of neighbourhood at scale 1; without <neighbourhood>: twice the crown's"),
-           0))},
+       {required(
+           within(attribute("radius", VT::length,
+                            "of its field of neighbourhood at scale 1; without <neighbourhood>: twice the crown's"),
+                  0))},
        {},
        VT::none,
        true,

@@ -5,6 +5,12 @@ namespace silvasim::config {
 
 using VT = ValueType;
 
+namespace {
+
+constexpr double farthest = 1e9;  // metres; an ecosystem file takes no more
+
+}  // namespace
+
 std::vector<ElementRule> scene_rules() {
   return {
       {"Include",
@@ -30,10 +36,10 @@ std::vector<ElementRule> scene_rules() {
       {"Extent",
        "extent",
        "The scene's box, in the scene's coordinates or in degrees.",
-       {required(attribute("west", VT::number, "least easting or longitude")),
-        required(attribute("south", VT::number, "least northing or latitude")),
-        required(attribute("east", VT::number, "greatest easting or longitude")),
-        required(attribute("north", VT::number, "greatest northing or latitude")),
+       {required(within(attribute("west", VT::number, "least easting or longitude"), -farthest, farthest)),
+        required(within(attribute("south", VT::number, "least northing or latitude"), -farthest, farthest)),
+        required(within(attribute("east", VT::number, "greatest easting or longitude"), -farthest, farthest)),
+        required(within(attribute("north", VT::number, "greatest northing or latitude"), -farthest, farthest)),
         attribute("degrees", VT::boolean, "the four numbers are degrees of WGS 84", "false")},
        {},
        VT::none,
@@ -42,8 +48,8 @@ std::vector<ElementRule> scene_rules() {
       {"Size",
        "size",
        "The scene's size: about the terrain's middle, or a local box from (0, 0).",
-       {required(within(attribute("width", VT::length, "from west to east"), tiny)),
-        required(within(attribute("height", VT::length, "from south to north"), tiny))},
+       {required(within(attribute("width", VT::length, "from west to east"), tiny, farthest)),
+        required(within(attribute("height", VT::length, "from south to north"), tiny, farthest))},
        {},
        VT::none,
        true,

@@ -73,7 +73,22 @@ TEST(Scenario, ErrorsNameTheThingAndWhatWouldBeRight) {
             "plants.xml:2:1: error: plant \"oak\" has no property \"W\", which <FunctionEvaluator> at ecosystem.xml:3 "
             "asks for\n");
   EXPECT_EQ(errors(ecosystem(evaluator()), plants("<property name=\"W\"><MinMax min=\"1\" max=\"0\"/></property>")),
-            "plants.xml:2:38: error: <MinMax> reversed: min is above max\n");
+            "plants.xml:2:38: error: <MinMax> reversed: min=\"1\" is above max=\"0\"\n");
+  EXPECT_EQ(errors(ecosystem(evaluator()),
+                   plants("<property name=\"W\"><Trapezoid a=\"1\" b=\"3\" c=\"2\" d=\"4\"/></property>")),
+            "plants.xml:2:38: error: <Trapezoid>: a, b, c, d must not fall: b=\"3\" is above c=\"2\"\n");
+  EXPECT_EQ(errors(ecosystem(evaluator()), plants("<scale least=\"2\" most=\"1\"/><property name=\"W\"><MinMax "
+                                                  "min=\"0\" max=\"1\"/></property>")),
+            "plants.xml:2:19: error: <scale> reversed: least=\"2\" is above most=\"1\"\n");
+  EXPECT_EQ(errors(ecosystem("<scene><extent west=\"3\" south=\"0\" east=\"1\" north=\"9\"/></scene>" + evaluator()),
+                   plants()),
+            "ecosystem.xml:3:8: error: <extent> reversed or empty: west=\"3\" is not less than east=\"1\"\n");
+  EXPECT_EQ(errors(ecosystem("<datafield name=\"soil\" scale=\"0\">water.png</datafield>" + evaluator()), plants()),
+            "ecosystem.xml:3:24: error: data field \"soil\": scale=\"0\" would give every cell the same value, its "
+            "offset\n");
+  EXPECT_NE(
+      errors(ecosystem("<tiles colours=\"17\"/>" + evaluator()), plants()).find("expected a whole number, 3 to 16"),
+      std::string::npos);
   EXPECT_EQ(errors(ecosystem(evaluator()),
                    plants("<property name=\"W\"><Classes><class code=\"1\" value=\"1\"/></Classes></property>")),
             "plants.xml:2:38: error: property \"W\" of \"oak\" is a <Classes>, but <FunctionEvaluator> at "
@@ -89,7 +104,7 @@ TEST(Scenario, ErrorsNameTheThingAndWhatWouldBeRight) {
       "or lessen "
       "radii\n");
   EXPECT_EQ(errors(ecosystem("<tiles><radii least=\"8 m\" most=\"2 m\"/></tiles>" + evaluator()), plants()),
-            "ecosystem.xml:3:8: error: <radii> reversed: least is above most\n");
+            "ecosystem.xml:3:8: error: <radii> reversed: least=\"8 m\" is above most=\"2 m\"\n");
   EXPECT_EQ(errors(ecosystem("<derivedfield name=\"slope\" measure=\"slope\"/>" + evaluator()), plants()),
             "ecosystem.xml:3:1: error: derived field \"slope\" needs a terrain: a <datafield terrain=\"true\">, or "
             "of=\"...\"\n");
@@ -147,6 +162,33 @@ TEST(Scenario, NamedInfluencesBeatStars) {
            "<plants><plant name=\"oak\"/><plant name=\"elm\"><influence on=\"elm\" value=\"0.5\"/></plant></plants>");
   EXPECT_EQ(files.errors(), "");
   EXPECT_EQ(files.load().layers[0].neighbourhoods.influence, (std::vector<double>{-0.2, -0.3, -0.1, 0.5}));
+}
+
+TEST(Scenario, ASpeciesMayGrowInSeveralLayersButOnceInEach) {
+  Files files;
+  const std::string neighbours = "<neighbourhoods/><RadiusEvaluator/></layer>";
+  files
+      .add("ecosystem.xml",
+           "<ecosystem><layer name=\"trees\">" + neighbours + "<layer name=\"shrubs\">" + neighbours + "</ecosystem>")
+      .add("plants.xml",
+           "<plants>\n<plant name=\"beech\" layer=\"trees\"><influence on=\"*\" value=\"-0.1\"/></plant>\n"
+           "<plant name=\"beech\" layer=\"shrubs\"><influence on=\"*\" value=\"0.2\"/></plant></plants>");
+  EXPECT_EQ(files.errors(), "");
+  const Scenario scenario = files.load();
+  EXPECT_EQ(scenario.layers[0].neighbourhoods.influence, std::vector<double>{-0.1});
+  EXPECT_EQ(scenario.layers[1].neighbourhoods.influence, std::vector<double>{0.2});
+  files.add("plants.xml",
+            "<plants>\n<plant name=\"beech\" layer=\"trees\"/>\n<plant name=\"beech\" layer=\"shrubs\"/>\n"
+            "<plant name=\"beech\"/></plants>");
+  EXPECT_EQ(files.errors(),
+            "plants.xml:4:1: error: plant \"beech\" stands twice in layer \"trees\"; the first is at plants.xml:2\n");
+}
+
+TEST(Scenario, TooManyPlantsAreRefusedBeforeTheyAreMatched) {
+  std::string plants = "<plants>";
+  for (int i = 0; i < 100'000; ++i) plants += "<plant name=\"a" + std::to_string(i) + "\"/>";
+  EXPECT_EQ(errors(ecosystem(evaluator("<RadiusEvaluator/>")), plants + "</plants>"),
+            "ecosystem.xml:1:1: error: layer \"plants\" has more than 4096 plants\n");
 }
 
 TEST(Scenario, ThePlantsFileMayLieElsewhere) {

@@ -381,6 +381,10 @@ TEST(Values, OutOfRangeAreRefused) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   expect("extent", "META", 4, nan);
   expect("extent", "META", 4, 1e9);
+  expect("1,000,000 km", "META", 4, -1e300);
+  expect("1,000,000 km", "META", 4, -1.1e9);
+  expect("1,000,000 km", "TERR", 8, 1e300);
+  expect("1,000,000 km", "LAYR", 9, -1e300);
   expect("JSON", "PROV", 0, '[');
   expect("finite", "TERR", 8, infinity);
   expect("cells larger than 0", "TERR", 24, -1.0);
@@ -403,6 +407,22 @@ TEST(Values, OutOfRangeAreRefused) {
   EXPECT_EQ(refusal(put_together(anatomy)), "");
   anatomy.part("PLNT").content[0] = anatomy.part("PLNT").content[2];
   expect_refused(anatomy, "numbers of plants differ");
+}
+
+TEST(Values, DeepProvenanceIsRefused) {
+  Ecosystem ecosystem = small_ecosystem();
+  const auto nested = [](std::size_t levels) {
+    return "{\"[\\\"[\":" + std::string(levels - 1, '[') + std::string(levels - 1, ']') + "}";
+  };
+  ecosystem.provenance_json = nested(64);
+  EXPECT_TRUE(from_bytes(to_bytes(ecosystem), "test.silva") == ecosystem);
+  for (const std::size_t levels : {65, 20000}) {
+    Anatomy anatomy = small_anatomy();
+    const std::string text = nested(levels);
+    const auto bytes = std::as_bytes(std::span(text));
+    anatomy.part("PROV").content.assign(bytes.begin(), bytes.end());
+    expect_refused(anatomy, "nested deeper than 64 levels");
+  }
 }
 
 TEST(Bands, ThatDoNotPartTheRowsAreRefused) {

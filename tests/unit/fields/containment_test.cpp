@@ -18,6 +18,7 @@
 #include <fstream>
 #include <set>
 
+#include "silvasim/fields/crs.h"
 #include "silvasim/fields/drivers.h"
 #include "silvasim/fields/feature_writer.h"
 #include "silvasim/fields/open.h"
@@ -83,12 +84,12 @@ std::string message_of(const config::SceneSettings& scene, const config::FieldSe
 
 void make_tiff(const std::filesystem::path& path) {
   std::vector<float> values(100 * 100, 5.0f);
-  Band band;
-  band.columns = band.rows = 100;
-  band.north = 1000;
-  band.cell_width = band.cell_height = 10;
-  band.values = std::span<const float>(values);
-  write_geotiff(path, band);
+  Grid grid;
+  grid.columns = grid.rows = 100;
+  grid.north = 1000;
+  grid.cell_width = grid.cell_height = 10;
+  const Band band{std::span<const float>(values), ""};
+  write_geotiff(path, grid, {&band, 1});
 }
 
 // A GeoTIFF that says that its overviews lie elsewhere.
@@ -283,6 +284,42 @@ TEST(Containment, ACrsIsNoAddressAndNoFile) {
   EXPECT_FALSE(listener.was_called());
 }
 
+// PROJ would open these while GDAL still reads the text. Blanks, brackets and quotation marks may be written in many ways.
+TEST(Containment, ACrsNamesNoFileInAnySpelling) {
+  const TemporaryFolder folder;
+  write_text(folder / "grid", "NTv2");
+  const Canary canary(folder / "grid");
+  const std::string grid = canary.path().string();
+  const std::string degrees = R"(CS[ellipsoidal,2],AXIS["lat",north],AXIS["lon",east],ANGLEUNIT["degree",0.01745]])";
+  const auto bound = [&](const std::string& file) {
+    return R"(BOUNDCRS[SOURCECRS[GEOGCRS["x",DATUM["d",ELLIPSOID["GRS 1980",6378137,298.257]],)" + degrees +
+           R"(],TARGETCRS[GEOGCRS["y",DATUM["World Geodetic System 1984",ELLIPSOID["WGS 84",6378137,298.257223563]],)" +
+           degrees + R"(],ABRIDGEDTRANSFORMATION["t",METHOD["NTv2",ID["EPSG",9615]],)" + file + "]]";
+  };
+  const std::string name = "\"Latitude and longitude difference file\"";
+  for (const std::string& text :
+       {bound("PARAMETERFILE[" + name + ",\"" + grid + "\"]"), bound("PARAMETERFILE [" + name + ",\"" + grid + "\"]"),
+        bound("parameterfile\n(" + name + ",\"" + grid + "\")"), bound("PARAMETERFILE[\"]\",\"" + grid + "\"]"),
+        bound("PARAMETERFILE[\u201C]\u201D,\u201C" + grid + "\u201D]"),
+        bound("METHOD[\"PROJ-based operation method: +proj=defmodel +model = " + grid + "\"]"),
+        R"(GEOGCS["y",DATUM["d",SPHEROID["GRS 1980",6378137,298.257],EXTENSION ["PROJ4_GRIDS",")" + grid +
+            R"("]],PRIMEM["Greenwich",0],UNIT["degree",0.01745]])",
+        "+proj=longlat +ellps=GRS80 +nadgrids =\t" + grid + " +type=crs", "+init = " + grid + ":1",
+        "+proj=longlat +ellps=GRS80 +nadgrids=\"@a b," + grid + "\"",
+        std::string(R"( {"type":"GeographicCRS","name":"x"})")}) {
+    EXPECT_THROW(crs_from_text(text), base::Error) << text;
+  }
+  EXPECT_FALSE(canary.was_opened());
+  // A grid that PROJ looks for in its own folder may be named, and nothing is said on standard error where it lacks.
+  testing::internal::CaptureStderr();
+  const Crs own = crs_from_text(bound("PARAMETERFILE[" + name + ",\"no_such_grid.gsb\"]"));
+  EXPECT_EQ(name_of(own), "x");
+  EXPECT_TRUE(is_geographic(own));
+  bounds(Transformation(own, wgs84()), {1, 1, 2, 2});
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_NO_THROW(crs_from_text("EPSG:3857"));
+}
+
 TEST(Containment, NoRequestLeavesThroughGdal) {
   prepare_gdal();
   const Listener listener;
@@ -429,6 +466,24 @@ TEST(Containment, GeoPackageViewsThatCallOut) {
 }
 
 // An honest view is an honest layer.
+// A few bytes of SQL that ask for room without bound.
+TEST(Containment, GeoPackageFunctionsThatSwell) {
+  const TemporaryFolder folder;
+  make_geopackage(folder / "a.gpkg", "");
+  auto field = vector_field(folder / "a.gpkg", config::VectorMeasure::inside);
+  field.crs = "local";
+  field.layer = "honest";
+  for (const std::string& call : std::vector<std::string>{
+           "printf('%.*c', 200000000, 'x')", "format('%.*c', 200000000, 'x')", "hex(zeroblob(100000000))",
+           "replace(hex(replace('" + std::string(1000, 'x') + "', 'x', '" + std::string(1000, 'y') + "')), '7', '" +
+               std::string(100, 'z') + "')"}) {
+    field.where = "length(" + call + ") > 0";
+    EXPECT_NE(config_error(local, {field}), "") << call.substr(0, 60);
+  }
+  field.where = "fid > 0";
+  EXPECT_EQ(config_error(local, {field}), "");
+}
+
 TEST(Containment, HonestGeoPackageViewsAreRead) {
   const TemporaryFolder folder;
   make_geopackage(folder / "view.gpkg", "CREATE VIEW evil AS SELECT fid, geom FROM honest WHERE fid > 1;" + registered);

@@ -23,15 +23,15 @@ std::vector<float> numbers(int count) {
 std::filesystem::path tile(const TemporaryFolder& folder, const std::string& name, const std::string& crs, double west,
                            double north, double cell) {
   const std::vector<float> values = numbers(100);
-  Band band;
-  band.columns = band.rows = 10;
-  band.west = west;
-  band.north = north;
-  band.cell_width = band.cell_height = cell;
-  band.values = std::span<const float>(values);
-  if (!crs.empty()) band.crs_wkt = wkt_of(crs_from_text(crs));
+  Grid grid;
+  grid.columns = grid.rows = 10;
+  grid.west = west;
+  grid.north = north;
+  grid.cell_width = grid.cell_height = cell;
+  if (!crs.empty()) grid.crs_wkt = wkt_of(crs_from_text(crs));
+  const Band band{std::span<const float>(values), ""};
   const auto path = folder / name;
-  write_geotiff(path, band);
+  write_geotiff(path, grid, {&band, 1});
   return path;
 }
 

@@ -102,6 +102,28 @@ TEST(Vector, Mistakes) {
 // What docs/fields.md promises: about a cell, or about 1 % where that is more.
 double allowed_error(double distance_m, double cell) { return std::max(1.5 * cell, 0.015 * distance_m); }
 
+// A wrong filter is the user's mistake, whichever format finds it and whenever it does.
+TEST(Vector, AWrongFilterIsAnErrorAtItsPlaceInEveryFormat) {
+  const std::filesystem::path data = std::string(SILVA_SOURCE_DIR) + "/data";
+  auto package = vector_field(data / "landuse.gpkg", VectorMeasure::inside);
+  package.layer = "roads";
+  auto json = vector_field(data / "waters.geojson", VectorMeasure::inside);
+  const config::SceneSettings scene = scene_of("EPSG:25832", base::Box{570000, 5725200, 572000, 5726700});
+  const auto message = [&](config::FieldSettings& field, const std::string& where) {
+    field.where = where;
+    return config_error(scene, {field});
+  };
+  EXPECT_EQ(message(package, "clas = 'road'"),
+            "scene.xml:7:3: error: data field \"landuse\": where=\"clas = 'road'\" cannot be understood: there is no "
+            "column \"clas\"; columns are fid, class; did you mean \"class\"?");
+  EXPECT_EQ(message(json, "knd = 'river'"),
+            "scene.xml:7:3: error: data field \"waters\": where=\"knd = 'river'\" cannot be understood: there is no "
+            "column \"knd\"; columns are kind; did you mean \"kind\"?");
+  EXPECT_NE(message(package, "class =").find("cannot be understood: incomplete input; columns are"), std::string::npos);
+  EXPECT_NE(message(package, "shout(class)").find("no such function: shout"), std::string::npos);
+  EXPECT_EQ(message(package, "class = 'road'"), "");
+}
+
 // Distance against plain geometry, inside the scene and to features outside it.
 TEST(Vector, DistanceIsRightToAboutACell) {
   std::mt19937 random(2024);
