@@ -49,7 +49,7 @@ void for_each_block(const Ground& ground, std::size_t first, std::size_t last, S
 }
 
 // Divides what is not excluded by `most`, which is the largest of it: the largest becomes exactly 1.
-void divide(std::vector<float>& probability, float most) {
+void divide(base::LazyVector<float>& probability, float most) {
   constexpr std::size_t piece = 1 << 18;
   base::parallel_for((probability.size() + piece - 1) / piece, [&](std::size_t k) {
     const std::size_t end = std::min(probability.size(), (k + 1) * piece);

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "silvasim/base/lazy_vector.h"
 #include "silvasim/base/progress.h"
 #include "silvasim/evaluators/ground.h"
 #include "silvasim/evaluators/network.h"
@@ -17,7 +18,7 @@ namespace silvasim::evaluators {
 
 struct Suitability {
   std::size_t species = 0;
-  std::vector<float> probability;
+  base::LazyVector<float> probability;
   std::vector<float> maxima;  // what each NormalizeEvaluator divided by (0: nothing to divide)
   // Of the sites inside the scene: how many, and on how many each of Network::fields() has no data.
   std::uint64_t inside = 0;

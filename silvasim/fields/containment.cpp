@@ -7,9 +7,12 @@
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <functional>
 #include <set>
 #include <system_error>
 #include <vector>
@@ -103,6 +106,44 @@ void contain_gdal() {
   CPLSetConfigOption("OGR_SQLITE_LOAD_EXTENSIONS", nullptr);
 }
 
+bool holds_parameter_file(std::string_view text) {
+  static const std::string word = "parameterfile";
+  static const std::boyer_moore_horspool_searcher searcher(word.begin(), word.end());
+  std::string lower(text);
+  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  for (auto at = lower.begin(); (at = std::search(at, lower.end(), searcher)) != lower.end();) {
+    at += static_cast<std::ptrdiff_t>(word.size());
+    const auto next = std::find_if(at, lower.end(), [](char c) { return !std::strchr(" \t\n\v\f\r", c) || c == '\0'; });
+    if (next != lower.end() && (*next == '[' || *next == '(')) return true;
+  }
+  return false;
+}
+
+void refuse_parameter_files(const fs::path& path) {
+  std::vector<fs::path> files{path, fs::path(path) += ".aux.xml"};
+  for (const char* const extension : {".prj", ".PRJ", ".qpj", ".aux.xml"}) {
+    files.push_back(fs::path(path).replace_extension(extension));
+  }
+  for (const fs::path& file : files) {
+    std::error_code ignored;
+    if (!fs::is_regular_file(file, ignored)) continue;
+    std::ifstream in(file, std::ios::binary);
+    // Pieces overlap by more than the word and some blanks, so that it cannot hide between two.
+    constexpr std::size_t piece = 1 << 20, overlap = 256;
+    std::string text;
+    while (in) {
+      const std::size_t kept = std::min(overlap, text.size());
+      text.erase(0, text.size() - kept);
+      text.resize(kept + piece);
+      in.read(text.data() + kept, piece);
+      text.resize(kept + static_cast<std::size_t>(in.gcount()));
+      if (holds_parameter_file(text)) {
+        throw base::Error("\"" + file.string() + "\" holds a CRS that names a file (PARAMETERFILE); a CRS may not");
+      }
+    }
+  }
+}
+
 std::string contained_name(const fs::path& path) {
   const std::string& text = path.native();
   if (text.empty()) throw base::Error("no file is named");
@@ -117,6 +158,7 @@ std::string contained_name(const fs::path& path) {
   if (failure) throw base::Error("cannot read \"" + text + "\": " + failure.message());
   if (absolute.native().starts_with("/vsi"))
     throw base::Error("cannot read \"" + text + "\": names that begin with /vsi are GDAL's");
+  refuse_parameter_files(absolute);
   return absolute.native();
 }
 

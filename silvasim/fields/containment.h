@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace silvasim::fields {
 
@@ -14,5 +15,13 @@ void contain_gdal();
 // The name under which GDAL may open a user's file: absolute, so that no prefix ("PG:", "MEM:::", "http://") can mean
 // anything else; a regular file, links followed. Errors: base::Error without a place, for the caller to put one.
 std::string contained_name(const std::filesystem::path& path);
+
+// GDAL opens what a PARAMETERFILE["...", "/a/file"] names while it imports the CRS that holds it, so such a CRS must not
+// come to GDAL: in the file itself as plain text, or in what GDAL reads beside it (.prj, .qpj, .aux.xml).
+// Errors: base::Error that names the file.
+void refuse_parameter_files(const std::filesystem::path& path);
+
+// The same for one text.
+bool holds_parameter_file(std::string_view text);
 
 }  // namespace silvasim::fields

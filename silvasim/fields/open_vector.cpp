@@ -15,6 +15,7 @@
 #include "silvasim/base/error.h"
 #include "silvasim/base/file.h"
 #include "silvasim/base/words.h"
+#include "silvasim/fields/containment.h"
 #include "silvasim/fields/drivers.h"
 #include "silvasim/fields/gdal_log.h"
 
@@ -117,6 +118,9 @@ void VectorFile::open() {
   sqlite_ = is_sqlite(field.path);
   std::optional<SqliteGate> gate;
   if (sqlite_) gate.emplace();
+  if (sqlite_ && holds_parameter_file(crs_definitions(field.path))) {
+    fail_at(field, shown + " defines a CRS that names a file (PARAMETERFILE); a CRS may not");
+  }
   dataset_.reset(GDALDataset::Open(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_INTERNAL,
                                    vector_driver_names(), options.data(), nullptr));
   if (dataset_ && gate && !gate->guarded()) throw base::Error("SQLite does not let " + shown + " be guarded");

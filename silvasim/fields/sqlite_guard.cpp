@@ -68,6 +68,26 @@ sqlite3* SqliteGate::connection() const { return last_guarded; }
 
 std::string last_error(sqlite3* connection) { return sqlite3_errmsg(connection); }
 
+std::string crs_definitions(const std::filesystem::path& path) {
+  sqlite3* connection = nullptr;
+  std::string all;
+  if (sqlite3_open_v2(path.c_str(), &connection, SQLITE_OPEN_READONLY, nullptr) == SQLITE_OK) {
+    sqlite3_stmt* statement = nullptr;
+    if (sqlite3_prepare_v2(connection, "SELECT * FROM gpkg_spatial_ref_sys", -1, &statement, nullptr) == SQLITE_OK) {
+      while (sqlite3_step(statement) == SQLITE_ROW) {
+        for (int column = 0; column < sqlite3_column_count(statement); ++column) {
+          const auto* text = reinterpret_cast<const char*>(sqlite3_column_text(statement, column));
+          all += text ? text : "";
+          all += '\n';
+        }
+      }
+    }
+    sqlite3_finalize(statement);
+  }
+  sqlite3_close(connection);
+  return all;
+}
+
 bool is_sqlite(const std::filesystem::path& path) {
   constexpr std::string_view magic = "SQLite format 3";
   std::string head(magic.size(), '\0');

@@ -27,6 +27,10 @@ class SqliteGate {
 // What SQLite says of the last thing that was asked of it: "no such column: clas".
 std::string last_error(sqlite3* connection);
 
+// The CRSs that a GeoPackage defines, asked before GDAL sees them; "" where the file is none. To be called under a gate
+// and a budget.
+std::string crs_definitions(const std::filesystem::path& path);
+
 bool is_sqlite(const std::filesystem::path& path);  // by its first bytes
 
 // While it lives, SQLite statements of this thread stop with an error after so many steps of its virtual machine,

@@ -407,6 +407,37 @@ const std::string registered =
     "'features', 'evil', 0, 0, 1000, 1000, 0);"
     "INSERT INTO gpkg_geometry_columns VALUES ('evil', 'geom', 'POINT', 0, 0, 0);";
 
+// What GDAL itself reads of a CRS: a GeoPackage's table, in any encoding, and a shapefile's .prj.
+TEST(Containment, ACrsInAFileNamesNoFile) {
+  const TemporaryFolder folder;
+  write_text(folder / "grid", "NTv2");
+  const Canary canary(folder / "grid");
+  const std::string degrees = R"(CS[ellipsoidal,2],AXIS["lat",north],AXIS["lon",east],ANGLEUNIT["degree",0.01745]])";
+  const std::string crs =
+      R"(BOUNDCRS[SOURCECRS[GEOGCRS["x",DATUM["d",ELLIPSOID["GRS 1980",6378137,298.257]],)" + degrees +
+      R"(],TARGETCRS[GEOGCRS["y",DATUM["World Geodetic System 1984",ELLIPSOID["WGS 84",6378137,298.257223563]],)" +
+      degrees + R"(],ABRIDGEDTRANSFORMATION["t",METHOD["NTv2",ID["EPSG",9615]],ParameterFile ["f",")" +
+      canary.path().string() + "\"]]]";
+  make_geopackage(folder / "evil.gpkg", "UPDATE gpkg_spatial_ref_sys SET organization = 'NONE', definition = '" + crs +
+                                            "'; UPDATE gpkg_contents SET srs_id = (SELECT min(srs_id) FROM "
+                                            "gpkg_spatial_ref_sys);");
+  EXPECT_NE(
+      config_error(local, {vector_field(folder / "evil.gpkg", config::VectorMeasure::inside)}).find("PARAMETERFILE"),
+      std::string::npos);
+  write_text(folder / "points.csv", "x,y\n1,1\n");
+  write_text(folder / "points.prj", crs);
+  EXPECT_NE(
+      config_error(local, {vector_field(folder / "points.csv", config::VectorMeasure::inside)}).find("PARAMETERFILE"),
+      std::string::npos);
+  EXPECT_FALSE(canary.was_opened());
+  // Other talk of parameter files is no CRS, nor does a place where two pieces of a file meet hide one.
+  EXPECT_FALSE(holds_parameter_file("\"ParameterFile\": \"/etc/passwd\""));
+  for (const int before : {0, 1, 255, 256, 257, (1 << 20) - 7, (1 << 20) - 1, 1 << 20}) {
+    write_text(folder / "long.prj", std::string(static_cast<std::size_t>(before), ' ') + crs);
+    EXPECT_THROW(refuse_parameter_files(folder / "long.csv"), base::Error) << before;
+  }
+}
+
 TEST(Containment, GeoPackageViewsWithoutEnd) {
   const TemporaryFolder folder;
   const std::string endless = "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) ";
