@@ -1,5 +1,6 @@
 // DistanceEvaluator: keeps crowns off features (roads, buildings, water), or near them. The distance is measured from the
 // crown's rim, not from the stem: the field's distance less the site's radius.
+#include "silvasim/config/value.h"
 #include "silvasim/evaluators/kinds/kinds.h"
 
 namespace silvasim::evaluators {
@@ -41,7 +42,10 @@ EvaluatorType distance_evaluator() {
         if (!node.has("least") && !node.has("most")) {
           making.errors.push_back({node.place, "<DistanceEvaluator> needs least or most, like least=\"5 m\""});
         }
-        if (least > most) making.errors.push_back({node.place, "<DistanceEvaluator> reversed: least is above most"});
+        if (least > most) {
+          making.errors.push_back({node.place, "<DistanceEvaluator> reversed: least=\"" + config::to_text(least) +
+                                                   " m\" is above most=\"" + config::to_text(most) + " m\""});
+        }
         return std::make_unique<Distance>(static_cast<float>(least), static_cast<float>(most));
       }};
 }

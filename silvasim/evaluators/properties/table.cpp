@@ -1,4 +1,5 @@
 // <Table><point x="0" y="0"/><point x="400" y="1"/></Table>: straight lines between points, constant outside.
+#include "silvasim/config/value.h"
 #include "silvasim/evaluators/properties/piecewise.h"
 #include "silvasim/evaluators/properties/properties.h"
 
@@ -18,13 +19,16 @@ std::unique_ptr<Response> make(const config::Node& node, std::vector<base::Diagn
 
 std::vector<CurvePoint> curve_points(const config::Node& node, std::vector<base::Diagnostic>& errors) {
   std::vector<CurvePoint> points;
+  double before = 0;
   for (const config::Node* point : node.all("TablePoint")) {
-    const CurvePoint next{static_cast<float>(point->number("x")), static_cast<float>(point->number("y"))};
-    if (!points.empty() && next.x < points.back().x) {
-      errors.push_back({point->place, "<" + node.rule->tag + ">: x must not fall from point to point"});
+    const double x = point->number("x");
+    if (!points.empty() && x < before) {
+      errors.push_back({point->place, "<" + node.rule->tag + ">: x must not fall from point to point; x=\"" +
+                                          config::to_text(x) + "\" follows \"" + config::to_text(before) + "\""});
       return {};
     }
-    points.push_back(next);
+    points.push_back({static_cast<float>(x), static_cast<float>(point->number("y"))});
+    before = x;
   }
   return points;
 }
