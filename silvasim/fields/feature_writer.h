@@ -24,7 +24,7 @@ namespace silvasim::fields {
 
 enum class PointFormat {
   geopackage,  // one point layer in the frame's CRS, with a spatial index, and its style where one is given
-  flatgeobuf,  // the same without style, many times as fast; the name must end in .fgb
+  flatgeobuf,  // the same without style, several times as fast; the name must end in .fgb
 };
 
 enum class ColumnType { integer, number, text };
