@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -106,11 +107,51 @@ void contain_gdal() {
   CPLSetConfigOption("OGR_SQLITE_LOAD_EXTENSIONS", nullptr);
 }
 
+namespace {
+
+// The ASCII character that JSON's \u0050 or XML's &#80; and &#x50; stand for at the start of the text, and how long that
+// is; {0, 0} where there is none.
+std::pair<char, std::size_t> escaped(std::string_view text) {
+  const auto number = [&](std::size_t from, std::size_t digits, int base, std::size_t length) {
+    unsigned value = 0;
+    const char* const end = text.data() + from + digits;
+    const auto result = std::from_chars(text.data() + from, end, value, base);
+    const bool whole = digits > 0 && result.ec == std::errc() && result.ptr == end && value > 0 && value < 128;
+    return whole ? std::pair{static_cast<char>(value), length} : std::pair{'\0', std::size_t{0}};
+  };
+  if (text.starts_with("\\u") && text.size() >= 6) return number(2, 4, 16, 6);
+  if (text.starts_with("\\n") || text.starts_with("\\t") || text.starts_with("\\r")) return {' ', 2};
+  if (!text.starts_with("&#")) return {'\0', 0};
+  const std::size_t end = text.substr(0, 16).find(';');
+  if (end == std::string_view::npos) return {'\0', 0};
+  const bool hex = text[2] == 'x' || text[2] == 'X';
+  return hex ? number(3, end - 3, 16, end + 1) : number(2, end - 2, 10, end + 1);
+}
+
+// In lower case, with what JSON and XML write by escapes written out.
+std::string plain_lower(std::string_view text) {
+  std::string plain;
+  plain.reserve(text.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    char c = text[i];
+    if (c == '\\' || c == '&') {
+      const auto [meant, length] = escaped(text.substr(i));
+      if (length > 0) {
+        c = meant;
+        i += length - 1;
+      }
+    }
+    plain += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  }
+  return plain;
+}
+
+}  // namespace
+
 bool holds_parameter_file(std::string_view text) {
   static const std::string word = "parameterfile";
   static const std::boyer_moore_horspool_searcher searcher(word.begin(), word.end());
-  std::string lower(text);
-  for (char& c : lower) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  const std::string lower = plain_lower(text);
   for (auto at = lower.begin(); (at = std::search(at, lower.end(), searcher)) != lower.end();) {
     at += static_cast<std::ptrdiff_t>(word.size());
     const auto next = std::find_if(at, lower.end(), [](char c) { return !std::strchr(" \t\n\v\f\r", c) || c == '\0'; });

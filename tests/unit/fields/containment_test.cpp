@@ -432,6 +432,13 @@ TEST(Containment, ACrsInAFileNamesNoFile) {
   EXPECT_FALSE(canary.was_opened());
   // Other talk of parameter files is no CRS, nor does a place where two pieces of a file meet hide one.
   EXPECT_FALSE(holds_parameter_file("\"ParameterFile\": \"/etc/passwd\""));
+  for (const char* const text : {R"(\u0050arameterfile["f","/x"])", R"(P\u0041RAMETER\u0046ile\n[)",
+                                 "&#80;ARAMETERFILE[", "PARAMETER&#x46;ile (", R"(ParameterFile\t\u005B)"}) {
+    EXPECT_TRUE(holds_parameter_file(text)) << text;
+  }
+  for (const char* const text : {"\\u", "\\u00", "&#", "&#;", "&#x;", "&#99999999999999;", "\\"}) {
+    EXPECT_FALSE(holds_parameter_file(text)) << text;
+  }
   for (const int before : {0, 1, 255, 256, 257, (1 << 20) - 7, (1 << 20) - 1, 1 << 20}) {
     write_text(folder / "long.prj", std::string(static_cast<std::size_t>(before), ' ') + crs);
     EXPECT_THROW(refuse_parameter_files(folder / "long.csv"), base::Error) << before;
