@@ -130,8 +130,8 @@ std::pair<char, std::size_t> escaped(std::string_view text) {
 
 // In lower case, with what JSON and XML write by escapes written out.
 std::string plain_lower(std::string_view text) {
-  std::string plain;
-  plain.reserve(text.size());
+  std::string plain(text.size(), '\0');
+  std::size_t size = 0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     char c = text[i];
     if (c == '\\' || c == '&') {
@@ -141,8 +141,9 @@ std::string plain_lower(std::string_view text) {
         i += length - 1;
       }
     }
-    plain += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+    plain[size++] = c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
   }
+  plain.resize(size);
   return plain;
 }
 

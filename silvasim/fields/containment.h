@@ -13,7 +13,8 @@ namespace silvasim::fields {
 void contain_gdal();
 
 // The name under which GDAL may open a user's file: absolute, so that no prefix ("PG:", "MEM:::", "http://") can mean
-// anything else; a regular file, links followed. Errors: base::Error without a place, for the caller to put one.
+// anything else; a regular file, links followed, that holds no parameter file (below). Errors: base::Error without a place,
+// for the caller to put one. Cost: reads the file once.
 std::string contained_name(const std::filesystem::path& path);
 
 // GDAL opens what a PARAMETERFILE["...", "/a/file"] names while it imports the CRS that holds it, so such a CRS must not
