@@ -75,7 +75,7 @@ std::string strongest_reason(const SiteExplanation& e, std::size_t species) {
   return worst ? text_of(*worst, species) : "no evaluator acts on it";
 }
 
-// " after the neighbours, which ...", or nothing where none acted.
+// What the probability was before the neighbours; nothing where none acted.
 std::string neighbours_text(const SiteExplanation& e) {
   if (e.neighbours.empty()) return "";
   return fmt::format(", which was {:.3g} before the neighbours acted", e.abiotic_probability);

@@ -1,8 +1,9 @@
 // How well the place suits the shown species, to be drawn: the largest of their shares at each point of the land.
 //
-// The layer of the smallest cells gives the grid; the cells of the others are repeated on it. A cell without sites takes the mean of its neighbours that have some. Between the cells values are spread by cubic
-// B-splines: a cell averages a few sites, whose chance sizes would show as grain. Cells where nothing can grow stay apart,
-// with a sharp rim: they darken no neighbour.
+// The layer of the smallest cells gives the grid; the cells of the others are repeated on it. A cell without sites takes
+// the mean of its neighbours that have some. Between the cells values are spread by cubic B-splines: a cell averages a few
+// sites, whose chance sizes would show as grain. Cells where nothing can grow stay apart, with a sharp rim: they darken no
+// neighbour.
 // Threads: at() may be called from any thread.
 #pragma once
 

@@ -196,17 +196,18 @@ TEST_F(Commands, AnEcosystemIsNotOverwrittenByWhatIsMadeOfIt) {
 TEST(CommandLine, FilesBesideAMapAreOutputsToo) {
   const Folder folder;
   const std::string example = source("configs/01-first-steps/ecosystem.xml");
-  EXPECT_EQ(silvasim({"run", example, "-o", folder / "a.silva", "--png", folder / "a.png", "--csv", folder / "a.pgw",
-                      "-q"})
-                .code,
-            2);
+  EXPECT_EQ(
+      silvasim({"run", example, "-o", folder / "a.silva", "--png", folder / "a.png", "--csv", folder / "a.pgw", "-q"})
+          .code,
+      2);
   EXPECT_FALSE(std::filesystem::exists(folder / "a.silva"));
 }
 
 // Whoever reads the log may have gone, or its disk be full: the work and its exit code stay.
 TEST_F(Commands, WhatCannotBeSaidDoesNotEndTheWork) {
   const Folder folder;
-  const std::string run = std::string(SILVA_BINARY_DIR) + "/silvasim run '" + scenario() + "' -o '" + (folder / "a.silva") + "' 2>/dev/full";
+  const std::string run = std::string(SILVA_BINARY_DIR) + "/silvasim run '" + scenario() + "' -o '" +
+                          (folder / "a.silva") + "' 2>/dev/full";
   EXPECT_EQ(program({"sh", "-c", run}).code, 0);
   EXPECT_EQ(program({"sh", "-c", std::string(SILVA_BINARY_DIR) + "/silvasim info nowhere 2>/dev/full"}).code, 1);
   EXPECT_EQ(program({"sh", "-c", std::string(SILVA_BINARY_DIR) + "/silvasim grow 2>&-"}).code, 2);
