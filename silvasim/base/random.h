@@ -17,6 +17,8 @@ enum class Purpose : std::uint32_t {
   establishment = 4,
   neighbourhood = 5,
   rotation = 6,
+  plant_form = 7,
+  picture = 8,
 };
 
 // A stream of numbers named by (seed, purpose, a, b, c). Two streams with different names are independent.

@@ -9,16 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "silvasim/terminal/terminal.h"
+
 namespace silvasim::commands {
 
 using Path = std::filesystem::path;
 
-// What several commands share.
-struct Common {
-  bool json = false;
-  bool quiet = false;
-  int threads = 0;  // 0: one a core
-};
+using terminal::Common;
 
 struct ScenarioOptions {
   Path ecosystem;

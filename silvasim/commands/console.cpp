@@ -1,90 +1,14 @@
 #include "silvasim/commands/console.h"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
-#include <memory>
-#include <mutex>
-
 #include "silvasim/config/load.h"
 #include "silvasim/evaluators/evaluator.h"
 
 namespace silvasim::commands {
 
-namespace {
-
-bool on_terminal() {
-  const char* terminal = std::getenv("TERM");
-  return isatty(STDERR_FILENO) && terminal && std::string(terminal) != "dumb";
-}
-
-// A log on a full disk must not end the work that it tells of, so what cannot be said is left unsaid.
-template <typename... Parts>
-void say(fmt::format_string<Parts...> format, Parts&&... parts) {
-  std::fputs(fmt::format(format, std::forward<Parts>(parts)...).c_str(), stderr);
-}
-
-struct Bar {
-  std::mutex mutex;
-  std::string stage;
-  double furthest = 0;
-  std::chrono::steady_clock::time_point drawn{};
-  bool terminal = on_terminal();
-
-  void show(std::string_view now, double done) {
-    const std::lock_guard lock(mutex);
-    const bool new_stage = now != stage;
-    if (new_stage) {
-      stage = now;
-      furthest = 0;
-      if (!terminal) say("{} ...\n", stage);
-    }
-    if (!terminal) return;
-    furthest = std::max(furthest, std::min(done, 1.0));
-    const auto time = std::chrono::steady_clock::now();
-    if (!new_stage && time - drawn < std::chrono::milliseconds(100)) return;
-    drawn = time;
-    constexpr int width = 30;
-    const int filled = static_cast<int>(furthest * width);
-    say("\r\x1b[K{:<11} [{}{}] {:3.0f} %", stage, std::string(static_cast<std::size_t>(filled), '#'),
-        std::string(static_cast<std::size_t>(width - filled), '.'), furthest * 100);
-    std::fflush(stderr);
-  }
-};
-
-}  // namespace
-
-base::Progress console_progress(const Common& common) {
-  if (common.quiet) return {};
-  return [bar = std::make_shared<Bar>()](std::string_view stage, double done) {
-    bar->show(stage, done);
-    return true;
-  };
-}
-
-void end_progress(const Common& common) {
-  if (!common.quiet && on_terminal()) say("\r\x1b[K");
-}
-
 config::Scenario load(const ScenarioOptions& options) {
   config::Scenario scenario = config::load_scenario(options.ecosystem, options.plants, evaluators::dialect());
   if (options.seed) scenario.seed = *options.seed;
   return scenario;
-}
-
-std::string grouped(std::uint64_t number) {
-  std::string text = std::to_string(number);
-  for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, ",");
-  return text;
-}
-
-std::string bytes_text(std::uint64_t bytes) {
-  if (bytes < 1000) return fmt::format("{} bytes", bytes);
-  if (bytes < 1000000) return fmt::format("{:.1f} kB", static_cast<double>(bytes) / 1e3);
-  return fmt::format("{:.1f} MB", static_cast<double>(bytes) / 1e6);
 }
 
 }  // namespace silvasim::commands

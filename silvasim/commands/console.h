@@ -1,25 +1,17 @@
-// What commands share in talking to a person or a program.
+// What silvasim's commands share: loading a scenario, and talking to its user (terminal.h).
 #pragma once
 
-#include <string>
-
-#include "silvasim/base/progress.h"
 #include "silvasim/commands/commands.h"
 #include "silvasim/config/scenario.h"
+#include "silvasim/terminal/terminal.h"
 
 namespace silvasim::commands {
 
-// Progress on standard error: a bar on a terminal, a line a stage elsewhere, nothing when quiet.
-base::Progress console_progress(const Common& common);
-
-// Removes the bar, so that what follows starts on a clean line.
-void end_progress(const Common& common);
+using terminal::bytes_text;
+using terminal::console_progress;
+using terminal::end_progress;
+using terminal::grouped;
 
 config::Scenario load(const ScenarioOptions& options);
-
-// "1,234,567"
-std::string grouped(std::uint64_t number);
-// "12.3 MB"
-std::string bytes_text(std::uint64_t bytes);
 
 }  // namespace silvasim::commands

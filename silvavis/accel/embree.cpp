@@ -1,0 +1,436 @@
+#include "silvavis/accel/embree.h"
+
+#include <embree3/rtcore.h>
+#include <pmmintrin.h>
+#include <xmmintrin.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "silvasim/base/error.h"
+#include "silvavis/scene/instance.h"
+
+namespace silvavis::accel {
+
+namespace {
+
+constexpr unsigned int ground_id = 0;
+
+// Which plant an instance or primitive is.
+struct Place {
+  std::uint32_t position;  // column + row * columns, row 0 the southernmost
+  std::uint32_t slot : 24;
+  std::uint32_t layer : 8;
+};
+
+// What callbacks need of the ray they belong to, behind Embree's own context.
+struct Context {
+  RTCIntersectContext embree;
+  const Ray* ray = nullptr;
+  Hit* hit = nullptr;
+  double best = 0;
+};
+
+// The same for the query of one plant, whose ray begins elsewhere than Embree's.
+struct PlantContext {
+  RTCIntersectContext embree;
+  const scene::LocalRay* ray = nullptr;
+};
+
+// Denormal numbers slow Embree down; the thread's own setting comes back afterwards.
+class FlushDenormals {
+ public:
+  FlushDenormals() : before_(_mm_getcsr()) {
+    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+  }
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+  ~FlushDenormals() { _mm_setcsr(before_); }
+
+ private:
+  unsigned int before_;
+};
+
+// Whether a hit does not count: a hole, or the back of a leaf that has none.
+bool is_nothing(const scene::PlantModel& model, unsigned int slot, float u, float v, bool from_behind) {
+  return (from_behind && !model.materials[model.slots[slot].material].two_sided) || scene::is_hole(model, slot, u, v);
+}
+
+bool from_behind(const RTCFilterFunctionNArguments& a, unsigned int i) {
+  return RTCHitN_Ng_x(a.hit, a.N, i) * RTCRayN_dir_x(a.ray, a.N, i) +
+             RTCHitN_Ng_y(a.hit, a.N, i) * RTCRayN_dir_y(a.ray, a.N, i) +
+             RTCHitN_Ng_z(a.hit, a.N, i) * RTCRayN_dir_z(a.ray, a.N, i) >
+         0;
+}
+
+// Embree calls this for each hit of a model with holes; "not valid" lets the ray go on.
+void skip_holes(const RTCFilterFunctionNArguments* arguments) {
+  const auto& model = *static_cast<const scene::PlantModel*>(arguments->geometryUserPtr);
+  for (unsigned int i = 0; i < arguments->N; ++i) {
+    if (arguments->valid[i] == 0) continue;
+    const unsigned int slot = RTCHitN_primID(arguments->hit, arguments->N, i);
+    if (is_nothing(model, slot, RTCHitN_u(arguments->hit, arguments->N, i), RTCHitN_v(arguments->hit, arguments->N, i),
+                   from_behind(*arguments, i)))
+      arguments->valid[i] = 0;
+  }
+}
+
+// The same with the arithmetic of the nested trees.
+void skip_holes_exactly(const RTCFilterFunctionNArguments* arguments) {
+  const auto& model = *static_cast<const scene::PlantModel*>(arguments->geometryUserPtr);
+  const scene::LocalRay& ray = *reinterpret_cast<const PlantContext*>(arguments->context)->ray;
+  const unsigned int slot = RTCHitN_primID(arguments->hit, arguments->N, 0);
+  const scene::TrianglePoint at = scene::meet_triangle(model, slot, ray.origin, ray.direction);
+  if (arguments->valid[0] != 0 && is_nothing(model, slot, at.u, at.v, from_behind(*arguments, 0)))
+    arguments->valid[0] = 0;
+}
+
+class Flatland final : public Tracer {
+ public:
+  Flatland(const scene::Scene& scene, Flat flat) : scene_(scene), exact_(flat == Flat::exact) {
+    device_ = rtcNewDevice(nullptr);
+    if (!device_) throw silvasim::base::Error("Embree cannot start on this machine");
+    rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
+    top_ = rtcNewScene(device_);
+    add_ground();
+    for (const auto& model : scene_.models) models_.push_back(make_model(*model));
+    list_plants();
+    exact_ ? add_plants_as_primitives() : add_plants_as_instances();
+    rtcCommitScene(top_);
+    check();
+  }
+  Flatland(const Flatland&) = delete;
+  Flatland& operator=(const Flatland&) = delete;
+  ~Flatland() override {
+    rtcReleaseScene(top_);
+    for (RTCScene model : models_) rtcReleaseScene(model);
+    rtcReleaseDevice(device_);
+  }
+
+  void nearest(std::span<const Ray> rays, std::span<Hit> hits) const override {
+    const FlushDenormals flush;
+    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = nearest(rays[i]);
+  }
+
+  void occluded(std::span<const Ray> rays, std::span<std::uint8_t> answers) const override {
+    const FlushDenormals flush;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      Hit ignored;
+      Context context = context_of(rays[i], ignored);
+      RTCRay ray = ray_of(rays[i]);
+      rtcOccluded1(top_, &context.embree, &ray);
+      answers[i] = ray.tfar < 0 ? 1 : 0;
+    }
+  }
+
+  std::size_t bytes() const override { return static_cast<std::size_t>(bytes_) + places_.capacity() * sizeof(Place); }
+
+ private:
+  static bool count_bytes(void* sum, ssize_t change, bool) {
+    // Embree calls from several threads.
+    __atomic_fetch_add(static_cast<std::int64_t*>(sum), static_cast<std::int64_t>(change), __ATOMIC_RELAXED);
+    return true;
+  }
+
+  void check() const {
+    if (rtcGetDeviceError(device_) != RTC_ERROR_NONE)
+      throw silvasim::base::Error(
+          "Embree could not build the scene; it takes about 0.5 kB a plant, --backend nested far less");
+  }
+
+  static RTCRay ray_of(const Ray& from) {
+    RTCRay ray{};
+    ray.org_x = static_cast<float>(from.origin.x);
+    ray.org_y = static_cast<float>(from.origin.y);
+    ray.org_z = static_cast<float>(from.origin.z);
+    ray.dir_x = from.direction.x;
+    ray.dir_y = from.direction.y;
+    ray.dir_z = from.direction.z;
+    ray.tnear = static_cast<float>(from.least);
+    ray.tfar = static_cast<float>(from.most);
+    ray.mask = ~0u;
+    return ray;
+  }
+
+  static Context context_of(const Ray& ray, Hit& hit) {
+    Context context;
+    rtcInitIntersectContext(&context.embree);
+    context.ray = &ray;
+    context.hit = &hit;
+    context.best = ray.most;
+    return context;
+  }
+
+  Hit nearest(const Ray& from) const {
+    Hit hit;
+    Context context = context_of(from, hit);
+    RTCRayHit query{};
+    query.ray = ray_of(from);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(top_, &context.embree, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Hit{};
+    if (query.hit.instID[0] == RTC_INVALID_GEOMETRY_ID && query.hit.geomID == ground_id) {
+      hit = Hit{};
+      hit.surface = Surface::ground;
+      hit.distance = static_cast<double>(query.ray.tfar);
+      return hit;
+    }
+    if (exact_) return hit;
+    set_place(hit, places_[query.hit.instID[0] - 1]);
+    hit.distance = static_cast<double>(query.ray.tfar);
+    hit.slot = query.hit.primID;
+    hit.u = query.hit.u;
+    hit.v = query.hit.v;
+    return hit;
+  }
+
+  scene::Instance instance_of(const Place& place) const {
+    const scene::PlantLayer& layer = scene_.layers[place.layer];
+    const int column = static_cast<int>(place.position) % layer.columns,
+              row = static_cast<int>(place.position) / layer.columns;
+    const std::uint8_t species = layer.plant_species[layer.first_slot[layer.position(column, row)] + place.slot];
+    return scene::instance_at(scene_, layer, column, row, place.slot, species);
+  }
+
+  void set_place(Hit& hit, const Place& place) const {
+    const scene::PlantLayer& layer = scene_.layers[place.layer];
+    hit.surface = Surface::plant;
+    hit.layer = static_cast<std::uint8_t>(place.layer);
+    hit.column = static_cast<int>(place.position) % layer.columns;
+    hit.row = static_cast<int>(place.position) / layer.columns;
+    hit.site_slot = place.slot;
+    hit.species = layer.plant_species[layer.first_slot[layer.position(hit.column, hit.row)] + place.slot];
+    hit.model = instance_of(place).model;
+  }
+
+  void add_ground() {
+    const scene::Ground& ground = scene_.ground;
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    const auto columns = static_cast<std::size_t>(ground.columns), rows = static_cast<std::size_t>(ground.rows);
+    auto* vertices = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, columns * rows));
+    auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, (columns - 1) * (rows - 1) * 2));
+    for (std::size_t j = 0; j < rows; ++j) {
+      for (std::size_t i = 0; i < columns; ++i) {
+        float* const vertex = vertices + (j * columns + i) * 3;
+        vertex[0] = static_cast<float>(ground.west + static_cast<double>(i) * ground.cell_x_m);
+        vertex[1] = static_cast<float>(ground.south + static_cast<double>(j) * ground.cell_y_m);
+        vertex[2] = ground.heights_m[j * columns + i];
+        if (i + 1 == columns || j + 1 == rows) continue;
+        const auto corner = static_cast<std::uint32_t>(j * columns + i);
+        const auto above = corner + static_cast<std::uint32_t>(columns);
+        std::uint32_t* const triangles = indices + (j * (columns - 1) + i) * 6;
+        const std::uint32_t corners[6] = {corner, corner + 1, above + 1, corner, above + 1, above};
+        std::copy_n(corners, 6, triangles);
+      }
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(top_, geometry, ground_id);
+    rtcReleaseGeometry(geometry);
+  }
+
+  RTCScene make_model(const scene::PlantModel& model) {
+    RTCScene scene = rtcNewScene(device_);
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    // Corners at the same place share a vertex. Triangle numbers are slots; empty slots are triangles without area.
+    std::unordered_map<std::uint64_t, std::uint32_t> numbers;
+    std::vector<V3> vertices;
+    auto* indices = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, model.slots.size()));
+    for (std::uint32_t slot = 0; slot < model.slots.size(); ++slot) {
+      for (int c = 0; c < 3; ++c) {
+        const auto& corner = model.blocks[slot / scene::block_size].corners[static_cast<std::size_t>(c)];
+        const std::uint32_t lane = slot % scene::block_size;
+        const std::uint64_t key =
+            std::uint64_t{corner[0][lane]} << 32 | std::uint64_t{corner[1][lane]} << 16 | corner[2][lane];
+        const auto [found, added] = numbers.try_emplace(key, static_cast<std::uint32_t>(vertices.size()));
+        if (added) vertices.push_back(model.position_of(slot, c));
+        indices[slot * 3 + static_cast<std::uint32_t>(c)] = found->second;
+      }
+    }
+    auto* buffer = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, vertices.size()));
+    for (std::size_t i = 0; i < vertices.size(); ++i) std::copy_n(&vertices[i].x, 3, buffer + i * 3);
+    rtcSetGeometryUserData(geometry, const_cast<scene::PlantModel*>(&model));
+    const bool holes =
+        std::any_of(model.materials.begin(), model.materials.end(),
+                    [](const assets::Material& material) { return material.alpha_cutoff > 0 || !material.two_sided; });
+    if (holes) {
+      rtcSetGeometryIntersectFilterFunction(geometry, exact_ ? skip_holes_exactly : skip_holes);
+      rtcSetGeometryOccludedFilterFunction(geometry, exact_ ? skip_holes_exactly : skip_holes);
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+    return scene;
+  }
+
+  void list_plants() {
+    places_.reserve(scene_.plants);
+    for (std::size_t k = 0; k < scene_.layers.size(); ++k) {
+      const scene::PlantLayer& layer = scene_.layers[k];
+      for (int row = 0; row < layer.rows; ++row) {
+        for (int column = 0; column < layer.columns; ++column) {
+          const std::size_t position = layer.position(column, row);
+          const std::uint32_t count = layer.tile_sites[layer.tiles[position]].count;
+          for (std::uint32_t slot = 0; slot < count; ++slot) {
+            if (layer.plant_species[layer.first_slot[position] + slot] == scene::no_species) continue;
+            places_.push_back(
+                {static_cast<std::uint32_t>(row * layer.columns + column), slot, static_cast<std::uint32_t>(k)});
+          }
+        }
+      }
+    }
+  }
+
+  void add_plants_as_instances() {
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const scene::Instance plant = instance_of(places_[i]);
+      RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+      rtcSetGeometryInstancedScene(geometry, models_[plant.model]);
+      const float c = plant.turn.cosine * plant.scale, s = plant.turn.sine * plant.scale;
+      const float matrix[12] = {c,
+                                s,
+                                0,
+                                -s,
+                                c,
+                                0,
+                                0,
+                                0,
+                                plant.scale,
+                                static_cast<float>(plant.foot.x),
+                                static_cast<float>(plant.foot.y),
+                                static_cast<float>(plant.foot.z)};
+      rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix);
+      rtcCommitGeometry(geometry);
+      rtcAttachGeometryByID(top_, geometry, static_cast<unsigned int>(i + 1));
+      rtcReleaseGeometry(geometry);
+    }
+  }
+
+  void add_plants_as_primitives() {
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned int>(places_.size()));
+    rtcSetGeometryUserData(geometry, this);
+    rtcSetGeometryBoundsFunction(geometry, bound_plant, this);
+    rtcSetGeometryIntersectFunction(geometry, [](const RTCIntersectFunctionNArguments* a) {
+      static_cast<const Flatland*>(a->geometryUserPtr)->meet(*a);
+    });
+    rtcSetGeometryOccludedFunction(geometry, [](const RTCOccludedFunctionNArguments* a) {
+      static_cast<const Flatland*>(a->geometryUserPtr)->meet(*a);
+    });
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(top_, geometry);
+    rtcReleaseGeometry(geometry);
+  }
+
+  static void bound_plant(const RTCBoundsFunctionArguments* arguments) {
+    const auto& self = *static_cast<const Flatland*>(arguments->geometryUserPtr);
+    const scene::Instance plant = self.instance_of(self.places_[arguments->primID]);
+    const scene::PlantModel& model = *self.scene_.models[plant.model];
+    constexpr double slack_m = 0.1;
+    const auto scale = static_cast<double>(plant.scale);
+    const double reach = static_cast<double>(model.reach_m) * scale + slack_m;
+    RTCBounds& box = *arguments->bounds_o;
+    box.lower_x = static_cast<float>(plant.foot.x - reach);
+    box.lower_y = static_cast<float>(plant.foot.y - reach);
+    box.upper_x = static_cast<float>(plant.foot.x + reach);
+    box.upper_y = static_cast<float>(plant.foot.y + reach);
+    box.lower_z = static_cast<float>(plant.foot.z + static_cast<double>(model.least.z) * scale - slack_m);
+    box.upper_z = static_cast<float>(plant.foot.z + static_cast<double>(model.most.z) * scale + slack_m);
+  }
+
+  static RTCRay local_ray_of(const scene::LocalRay& local, const scene::Instance& plant, const Ray& ray, double best) {
+    const double size = 1.0 / static_cast<double>(plant.scale);
+    RTCRay query{};
+    query.org_x = local.origin.x;
+    query.org_y = local.origin.y;
+    query.org_z = local.origin.z;
+    query.dir_x = local.direction.x;
+    query.dir_y = local.direction.y;
+    query.dir_z = local.direction.z;
+    // Embree refuses what lies behind a ray's origin, so the ray begins before the plant.
+    const double least = (ray.least - local.start) * size;
+    const double back = std::clamp(least, -200.0, 0.0);
+    query.org_x += static_cast<float>(back) * query.dir_x;
+    query.org_y += static_cast<float>(back) * query.dir_y;
+    query.org_z += static_cast<float>(back) * query.dir_z;
+    query.tnear = static_cast<float>(std::max(least - back, 0.0));
+    query.tfar = static_cast<float>(std::min((best - local.start) * size - back, 1e30));
+    query.mask = ~0u;
+    return query;
+  }
+
+  void meet(const RTCIntersectFunctionNArguments& arguments) const {
+    if (arguments.valid[0] == 0) return;
+    auto& context = *reinterpret_cast<Context*>(arguments.context);
+    const Place& place = places_[arguments.primID];
+    const scene::Instance plant = instance_of(place);
+    const scene::LocalRay local = scene::local_ray(plant, context.ray->origin, context.ray->direction);
+    auto* const outer = reinterpret_cast<RTCRayHit*>(arguments.rayhit);
+    // The ground, which Embree meets by itself, shortens the ray too.
+    const double best = std::min(context.best, static_cast<double>(outer->ray.tfar));
+    RTCRayHit query{};
+    query.ray = local_ray_of(local, plant, *context.ray, best);
+    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    if (query.ray.tfar <= query.ray.tnear) return;
+    PlantContext inner;
+    rtcInitIntersectContext(&inner.embree);
+    inner.ray = &local;
+    rtcIntersect1(models_[plant.model], &inner.embree, &query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
+    const scene::TrianglePoint at =
+        scene::meet_triangle(*scene_.models[plant.model], query.hit.primID, local.origin, local.direction);
+    const double distance = local.start + static_cast<double>(at.t) * static_cast<double>(plant.scale);
+    if (distance >= best || distance < context.ray->least) return;
+    context.best = distance;
+    Hit& hit = *context.hit;
+    set_place(hit, place);
+    hit.distance = distance;
+    hit.slot = query.hit.primID;
+    hit.u = at.u;
+    hit.v = at.v;
+    outer->ray.tfar = std::nextafter(static_cast<float>(distance), std::numeric_limits<float>::infinity());
+    outer->hit.geomID = arguments.geomID;
+    outer->hit.primID = arguments.primID;
+    outer->hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  }
+
+  void meet(const RTCOccludedFunctionNArguments& arguments) const {
+    if (arguments.valid[0] == 0) return;
+    const auto& context = *reinterpret_cast<const Context*>(arguments.context);
+    const scene::Instance plant = instance_of(places_[arguments.primID]);
+    const scene::LocalRay local = scene::local_ray(plant, context.ray->origin, context.ray->direction);
+    RTCRay query = local_ray_of(local, plant, *context.ray, context.ray->most);
+    if (query.tfar <= query.tnear) return;
+    PlantContext inner;
+    rtcInitIntersectContext(&inner.embree);
+    inner.ray = &local;
+    rtcOccluded1(models_[plant.model], &inner.embree, &query);
+    if (query.tfar < 0) reinterpret_cast<RTCRay*>(arguments.ray)->tfar = -std::numeric_limits<float>::infinity();
+  }
+
+  const scene::Scene& scene_;
+  bool exact_;
+  RTCDevice device_ = nullptr;
+  RTCScene top_ = nullptr;
+  std::vector<RTCScene> models_;
+  std::vector<Place> places_;
+  mutable std::int64_t bytes_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Tracer> make_embree(const scene::Scene& scene, Flat flat) {
+  return std::make_unique<Flatland>(scene, flat);
+}
+
+}  // namespace silvavis::accel

@@ -1,0 +1,70 @@
+// What the parts of the kernel share: rays prepared for slabs, and small words for Highway's.
+#if defined(SILVAVIS_NESTED_LANES) == defined(HWY_TARGET_TOGGLE)
+#ifdef SILVAVIS_NESTED_LANES
+#undef SILVAVIS_NESTED_LANES
+#else
+#define SILVAVIS_NESTED_LANES
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "silvavis/accel/tracer.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace silvavis::accel::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Eight floats where the machine has them, else four; loops step by Lanes(f8).
+using F8 = hn::CappedTag<float, 8>;
+using F4 = hn::CappedTag<float, 4>;
+constexpr F8 f8;
+constexpr F4 f4;
+using V8 = hn::Vec<F8>;
+using M8 = hn::Mask<F8>;
+
+template <typename D, typename M>
+HWY_INLINE std::uint32_t bits_of(D d, M mask) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(d, mask, bits);
+  return bits[0];
+}
+
+HWY_INLINE V8 floats_of(const std::uint8_t* bytes) {
+  return hn::ConvertTo(f8,
+                       hn::PromoteTo(hn::Rebind<std::int32_t, F8>(), hn::LoadU(hn::Rebind<std::uint8_t, F8>(), bytes)));
+}
+HWY_INLINE V8 floats_of(const std::uint16_t* words) {
+  return hn::ConvertTo(
+      f8, hn::PromoteTo(hn::Rebind<std::int32_t, F8>(), hn::LoadU(hn::Rebind<std::uint16_t, F8>(), words)));
+}
+HWY_INLINE hn::Vec<F4> four_floats_of(const std::uint16_t* words) {
+  return hn::ConvertTo(
+      f4, hn::PromoteTo(hn::Rebind<std::int32_t, F4>(), hn::LoadU(hn::Rebind<std::uint16_t, F4>(), words)));
+}
+
+// 1 / x without infinities, whose products with zero would be no numbers; minus zero counts as zero, as in x < 0.
+HWY_INLINE float inverse(float x) { return std::abs(x) < 1e-18f ? (x < 0 ? -1e18f : 1e18f) : 1.0f / x; }
+
+// A ray in floats of world space, for boxes only: all that hits something is decided nearer to it.
+struct FlatRay {
+  float ox, oy, oz, dx, dy, dz, ix, iy, iz;
+  explicit FlatRay(const Ray& ray)
+      : ox(static_cast<float>(ray.origin.x)),
+        oy(static_cast<float>(ray.origin.y)),
+        oz(static_cast<float>(ray.origin.z)),
+        dx(ray.direction.x),
+        dy(ray.direction.y),
+        dz(ray.direction.z),
+        ix(inverse(dx)),
+        iy(inverse(dy)),
+        iz(inverse(dz)) {}
+};
+
+}  // namespace silvavis::accel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

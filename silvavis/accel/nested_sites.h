@@ -1,0 +1,195 @@
+// The walk within a tile position: its Wang tile's tree of sites, and the plants that stand on them.
+#if defined(SILVAVIS_NESTED_SITES) == defined(HWY_TARGET_TOGGLE)
+#ifdef SILVAVIS_NESTED_SITES
+#undef SILVAVIS_NESTED_SITES
+#else
+#define SILVAVIS_NESTED_SITES
+#endif
+
+#include "silvavis/accel/nested_model.h"
+#include "silvavis/scene/instance.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace silvavis::accel::HWY_NAMESPACE {
+
+template <bool any_hit>
+struct LayerWalk {
+  const scene::Scene& scene;
+  const scene::PlantLayer& layer;
+  std::uint8_t layer_index;
+  const Ray& ray;
+  const FlatRay& flat;
+  double& best;
+  Hit& hit;
+  bool found;
+
+  // A tile position whose box of heights [low, high] the ray crosses between near and far.
+  HWY_INLINE bool operator()(int column, int row, float near, float far, float low, float high) {
+    const std::size_t position = layer.position(column, row);
+    const scene::TileSites& tile = layer.tile_sites[layer.tiles[position]];
+    if (tile.count == 0) return false;
+    // Begin anew where the ray enters, so that floats in the tile's space keep their millimetres.
+    const auto begin = static_cast<double>(near);
+    const auto moved = [&](double at, double corner, float direction) HWY_ATTR {
+      return static_cast<float>(at - corner + begin * static_cast<double>(direction));
+    };
+    TileRay r;
+    r.x = moved(ray.origin.x, layer.west + column * layer.tile_side_m, ray.direction.x);
+    r.y = moved(ray.origin.y, layer.south + row * layer.tile_side_m, ray.direction.y);
+    r.z = moved(ray.origin.z, 0, ray.direction.z);
+    r.begin = begin;
+    // Only where the ray is between the lowest root and the highest tip.
+    constexpr float slack_m = 0.05f;
+    const float z0 = (low - slack_m - r.z) * flat.iz, z1 = (high + slack_m - r.z) * flat.iz;
+    r.least = std::max({0.0f, std::min(z0, z1), static_cast<float>(ray.least - begin)});
+    r.most = std::min(far - near + slack_m, std::max(z0, z1));
+    if (r.least > r.most) return false;
+    walk_tile(tile, position, column, row, r);
+    return any_hit && found;
+  }
+
+ private:
+  struct TileRay {
+    float x, y, z;      // tile space; z as in the world
+    float least, most;  // distances from `begin`
+    double begin;
+  };
+
+  HWY_INLINE float limit(const TileRay& r) const {
+    return std::min(r.most, static_cast<float>(std::min(best - r.begin, 1e30)));
+  }
+
+  HWY_INLINE void walk_tile(const scene::TileSites& tile, std::size_t position, int column, int row, const TileRay& r) {
+    struct Entry {
+      float near;
+      std::uint32_t index;
+      bool leaf;
+    };
+    Entry stack[8 * 15 + 1];
+    int size = 0;
+    stack[size++] = {r.least, 0, false};
+    while (size > 0) {
+      const Entry entry = stack[--size];
+      const float most = limit(r);
+      if (entry.near > most) continue;
+      if (entry.leaf) {
+        walk_leaf(tile, position, column, row, r, entry.index);
+        if (any_hit && found) return;
+        continue;
+      }
+      const scene::SiteNode& node = tile.nodes[entry.index];
+      const float* const x_in = flat.dx < 0 ? node.most_x.data() : node.least_x.data();
+      const float* const x_out = flat.dx < 0 ? node.least_x.data() : node.most_x.data();
+      const float* const y_in = flat.dy < 0 ? node.most_y.data() : node.least_y.data();
+      const float* const y_out = flat.dy < 0 ? node.least_y.data() : node.most_y.data();
+      HWY_ALIGN float nears[16];
+      std::uint32_t hits = 0;
+      const V8 ox = hn::Set(f8, r.x), oy = hn::Set(f8, r.y), ix = hn::Set(f8, flat.ix), iy = hn::Set(f8, flat.iy);
+      for (std::size_t k = 0; k < 16; k += hn::Lanes(f8)) {
+        const V8 near = hn::Max(hn::Max(hn::Mul(hn::Sub(hn::LoadU(f8, x_in + k), ox), ix),
+                                        hn::Mul(hn::Sub(hn::LoadU(f8, y_in + k), oy), iy)),
+                                hn::Set(f8, r.least));
+        const V8 far = hn::Min(hn::Min(hn::Mul(hn::Sub(hn::LoadU(f8, x_out + k), ox), ix),
+                                       hn::Mul(hn::Sub(hn::LoadU(f8, y_out + k), oy), iy)),
+                               hn::Set(f8, most));
+        // Children without sites have their least above their most, so that near is beyond far.
+        hn::Store(near, f8, nears + k);
+        hits |= bits_of(f8, hn::Le(near, far)) << k;
+      }
+      // The farthest is pushed first.
+      const int bottom = size;
+      while (hits != 0) {
+        const auto child = static_cast<std::uint32_t>(std::countr_zero(hits));
+        hits &= hits - 1;
+        int at = size++;
+        for (; at > bottom && stack[at - 1].near < nears[child]; --at) stack[at] = stack[at - 1];
+        stack[at] = {nears[child], node.first + child, node.above_leaves};
+      }
+    }
+  }
+
+  // Sixteen sites: the circle that each plant can reach, and the heights between which it can stand.
+  HWY_INLINE void walk_leaf(const scene::TileSites& tile, std::size_t position, int column, int row, const TileRay& r,
+                            std::uint32_t leaf) {
+    const std::size_t slot0 = static_cast<std::size_t>(leaf) * 16;
+    const std::uint8_t* const species = layer.plant_species.data() + layer.first_slot[position] + slot0;
+    const std::uint16_t* const heights = layer.plant_heights.data() + layer.first_slot[position] + slot0;
+    const float run = std::sqrt(flat.dx * flat.dx + flat.dy * flat.dy);
+    const float per_run = 1.0f / std::max(run, 1e-9f);
+    const float hx = run > 1e-9f ? flat.dx * per_run : 1.0f, hy = run > 1e-9f ? flat.dy * per_run : 0.0f;
+    constexpr float slack_m = 0.02f;
+    HWY_ALIGN float nears[16];
+    std::uint32_t hits = 0;
+    const V8 zero = hn::Zero(f8), least = hn::Set(f8, r.least), most = hn::Set(f8, limit(r));
+    for (std::size_t k = 0; k < 16; k += hn::Lanes(f8)) {
+      const V8 px = hn::Sub(hn::LoadU(f8, tile.x_m.data() + slot0 + k), hn::Set(f8, r.x));
+      const V8 py = hn::Sub(hn::LoadU(f8, tile.y_m.data() + slot0 + k), hn::Set(f8, r.y));
+      const V8 reach = hn::LoadU(f8, tile.reach_m.data() + slot0 + k);
+      const V8 along = hn::Add(hn::Mul(px, hn::Set(f8, hx)), hn::Mul(py, hn::Set(f8, hy)));
+      const V8 beside = hn::Sub(hn::Mul(px, hn::Set(f8, hy)), hn::Mul(py, hn::Set(f8, hx)));
+      const V8 square = hn::Sub(hn::Mul(reach, reach), hn::Mul(beside, beside));
+      auto crossed = hn::And(hn::Ge(square, zero), hn::Gt(reach, zero));
+      const V8 chord = hn::Sqrt(hn::Max(square, zero));
+      const V8 near = hn::Max(hn::Mul(hn::Sub(along, chord), hn::Set(f8, per_run)), least);
+      const V8 far = hn::Min(hn::Mul(hn::Add(along, chord), hn::Set(f8, per_run)), most);
+      crossed = hn::And(crossed, hn::Le(near, far));
+      const V8 z_in = hn::Add(hn::Set(f8, r.z), hn::Mul(hn::Set(f8, flat.dz), near));
+      const V8 z_out = hn::Add(hn::Set(f8, r.z), hn::Mul(hn::Set(f8, flat.dz), far));
+      const V8 foot = hn::Add(hn::Set(f8, layer.base_m[position]),
+                              hn::Mul(hn::Set(f8, layer.step_m[position]), floats_of(heights + k)));
+      const V8 radius = hn::LoadU(f8, tile.radius_m.data() + slot0 + k);
+      const V8 tip = hn::Add(foot, hn::Add(hn::Mul(radius, hn::Set(f8, layer.most_height)), hn::Set(f8, slack_m)));
+      const V8 root = hn::Add(foot, hn::Sub(hn::Mul(radius, hn::Set(f8, layer.least_height)), hn::Set(f8, slack_m)));
+      crossed = hn::And(crossed, hn::Le(hn::Min(z_in, z_out), tip));
+      crossed = hn::And(crossed, hn::Ge(hn::Max(z_in, z_out), root));
+      hn::Store(near, f8, nears + k);
+      hits |= bits_of(f8, crossed) << k;
+    }
+    // The nearest first.
+    std::uint32_t order[16];
+    int count = 0;
+    while (hits != 0) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(hits));
+      hits &= hits - 1;
+      if (species[lane] == scene::no_species) continue;
+      int at = count++;
+      for (; at > 0 && nears[order[at - 1]] > nears[lane]; --at) order[at] = order[at - 1];
+      order[at] = lane;
+    }
+    for (int i = 0; i < count; ++i) {
+      if (nears[order[i]] > limit(r)) return;
+      meet_plant(column, row, static_cast<std::uint32_t>(slot0) + order[i], species[order[i]]);
+      if (any_hit && found) return;
+    }
+  }
+
+  HWY_INLINE void meet_plant(int column, int row, std::uint32_t slot, std::uint8_t species) {
+    const scene::Instance plant = scene::instance_at(scene, layer, column, row, slot, species);
+    const scene::LocalRay local = scene::local_ray(plant, ray.origin, ray.direction);
+    const scene::PlantModel& model = *scene.models[plant.model];
+    const double size = 1.0 / static_cast<double>(plant.scale);
+    ModelHit model_hit;
+    model_hit.t = static_cast<float>(std::min((best - local.start) * size, 1e30));
+    const auto least = static_cast<float>((ray.least - local.start) * size);
+    if (!hit_model<any_hit>(model, local.origin, local.direction, least, model_hit)) return;
+    const double distance = local.start + static_cast<double>(model_hit.t) * static_cast<double>(plant.scale);
+    if (distance >= best || distance < ray.least) return;
+    best = distance;
+    found = true;
+    hit.surface = Surface::plant;
+    hit.layer = layer_index;
+    hit.species = species;
+    hit.column = column;
+    hit.row = row;
+    hit.site_slot = slot;
+    hit.model = plant.model;
+    hit.slot = model_hit.slot;
+    hit.u = model_hit.u;
+    hit.v = model_hit.v;
+  }
+};
+
+}  // namespace silvavis::accel::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

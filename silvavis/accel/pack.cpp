@@ -1,0 +1,345 @@
+#include "silvavis/accel/pack.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+#include <vector>
+
+#include "silvasim/base/error.h"
+
+namespace silvavis::accel {
+
+namespace {
+
+using scene::PlantModel;
+
+struct Corner {
+  std::array<std::uint16_t, 3> at;
+};
+struct Triangle {
+  std::array<Corner, 3> corners;
+  std::uint32_t from = 0;  // in the model of floats
+};
+
+struct Bounds {
+  V3 least{std::numeric_limits<float>::max()}, most{std::numeric_limits<float>::lowest()};
+  void add(const V3& p) {
+    for (int a = 0; a < 3; ++a) {
+      least[a] = std::min(least[a], p[a]);
+      most[a] = std::max(most[a], p[a]);
+    }
+  }
+  void add(const Bounds& other) {
+    add(other.least);
+    add(other.most);
+  }
+};
+
+V3 decoded(const PlantModel& model, const Corner& corner) {
+  return {model.origin.x + model.step_m * static_cast<float>(corner.at[0]),
+          model.origin.y + model.step_m * static_cast<float>(corner.at[1]),
+          model.origin.z + model.step_m * static_cast<float>(corner.at[2])};
+}
+
+bool has_area(const Triangle& t) {
+  const auto edge = [&](std::size_t corner, std::size_t axis) {
+    return static_cast<std::int64_t>(t.corners[corner].at[axis]) - static_cast<std::int64_t>(t.corners[0].at[axis]);
+  };
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::size_t b = (a + 1) % 3;
+    if (edge(1, a) * edge(2, b) != edge(1, b) * edge(2, a)) return true;
+  }
+  return false;
+}
+
+std::vector<Triangle> quantised(const assets::Model& from, PlantModel& to) {
+  Bounds box;
+  for (const auto& triangle : from.triangles)
+    for (const std::uint32_t index : triangle) box.add(from.positions[index]);
+  const V3 size = box.most - box.least;
+  to.origin = box.least;
+  to.step_m = std::max({size.x, size.y, size.z}) / 65535.0f;
+  std::vector<Triangle> triangles;
+  triangles.reserve(from.triangles.size());
+  for (std::size_t i = 0; i < from.triangles.size(); ++i) {
+    Triangle triangle;
+    triangle.from = static_cast<std::uint32_t>(i);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const V3& p = from.positions[from.triangles[i][c]];
+      for (std::size_t a = 0; a < 3; ++a) {
+        const int axis = static_cast<int>(a);
+        const float steps = std::round((p[axis] - box.least[axis]) / to.step_m);
+        triangle.corners[c].at[a] = static_cast<std::uint16_t>(std::clamp(steps, 0.0f, 65535.0f));
+      }
+    }
+    if (has_area(triangle)) triangles.push_back(triangle);
+  }
+  if (triangles.empty())
+    throw silvasim::base::Error("model \"" + from.name + "\" has no triangle larger than 1/65535 of its size");
+  return triangles;
+}
+
+// The tree as Embree's builder leaves it, in its own memory.
+struct Built {
+  bool leaf = false;
+};
+struct BuiltLeaf : Built {
+  std::uint32_t count = 0;
+  std::array<std::uint32_t, scene::block_size> triangles{};
+};
+struct BuiltNode : Built {
+  std::uint32_t count = 0;
+  std::array<Built*, scene::node_size> children{};
+  std::array<Bounds, scene::node_size> bounds{};
+};
+
+void* create_node(RTCThreadLocalAllocator allocator, unsigned int count, void*) {
+  auto* node = new (rtcThreadLocalAlloc(allocator, sizeof(BuiltNode), 16)) BuiltNode;
+  node->count = count;
+  return node;
+}
+void set_children(void* pointer, void** children, unsigned int count, void*) {
+  auto* node = static_cast<BuiltNode*>(pointer);
+  for (unsigned int i = 0; i < count; ++i) node->children[i] = static_cast<Built*>(children[i]);
+}
+void set_bounds(void* pointer, const RTCBounds** bounds, unsigned int count, void*) {
+  auto* node = static_cast<BuiltNode*>(pointer);
+  for (unsigned int i = 0; i < count; ++i) {
+    node->bounds[i].least = {bounds[i]->lower_x, bounds[i]->lower_y, bounds[i]->lower_z};
+    node->bounds[i].most = {bounds[i]->upper_x, bounds[i]->upper_y, bounds[i]->upper_z};
+  }
+}
+void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* primitives, size_t count, void*) {
+  auto* leaf = new (rtcThreadLocalAlloc(allocator, sizeof(BuiltLeaf), 16)) BuiltLeaf;
+  leaf->leaf = true;
+  leaf->count = static_cast<std::uint32_t>(count);
+  for (size_t i = 0; i < count; ++i) leaf->triangles[i] = primitives[i].primID;
+  // Threads may part triangles in any order.
+  std::sort(leaf->triangles.begin(), leaf->triangles.begin() + leaf->count);
+  return leaf;
+}
+
+class Device {
+ public:
+  Device() : device_(rtcNewDevice(nullptr)) {
+    if (!device_) throw silvasim::base::Error("Embree cannot start on this machine");
+  }
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+  ~Device() { rtcReleaseDevice(device_); }
+  RTCDevice get() const { return device_; }
+
+ private:
+  RTCDevice device_;
+};
+
+class Packer {
+ public:
+  Packer(const assets::Model& from, PlantModel& to) : from_(from), to_(to), triangles_(quantised(from, to)) {}
+
+  void run() {
+    set_measures();
+    set_uv_range();
+    set_hull();
+    build();
+    to_.triangles = static_cast<std::uint32_t>(triangles_.size());
+  }
+
+ private:
+  void set_measures() {
+    Bounds box;
+    float reach = 0;
+    for_each_corner([&](const V3& p) {
+      box.add(p);
+      reach = std::max(reach, std::hypot(p.x, p.y));
+    });
+    to_.least = box.least;
+    to_.most = box.most;
+    to_.reach_m = reach;
+    const float foot_top = std::max(box.least.z, 0.0f) + 0.02f * (box.most.z - std::max(box.least.z, 0.0f));
+    // A stem that goes on below the ground needs no sinking.
+    if (box.least.z > -0.02f * box.most.z) {
+      for_each_corner([&](const V3& p) {
+        if (p.z <= foot_top) to_.foot_m = std::max(to_.foot_m, std::hypot(p.x, p.y));
+      });
+    }
+  }
+
+  void set_uv_range() {
+    V2 least(std::numeric_limits<float>::max()), most(std::numeric_limits<float>::lowest());
+    for (const V2& uv : from_.uvs) {
+      least = {std::min(least.x, uv.x), std::min(least.y, uv.y)};
+      most = {std::max(most.x, uv.x), std::max(most.y, uv.y)};
+    }
+    to_.uv_origin = least;
+    to_.uv_step = (most - least) / 65535.0f;
+  }
+
+  void set_hull() {
+    const float height = to_.most.z - to_.least.z;
+    for (std::size_t i = 0; i <= scene::hull_size; ++i)
+      to_.hull.edges_m[i] = to_.least.z + height * static_cast<float>(i) / static_cast<float>(scene::hull_size);
+    for (const Triangle& triangle : triangles_) {
+      float low = std::numeric_limits<float>::max(), high = -low, reach = 0;
+      for (const Corner& corner : triangle.corners) {
+        const V3 p = decoded(to_, corner);
+        low = std::min(low, p.z);
+        high = std::max(high, p.z);
+        reach = std::max(reach, std::hypot(p.x, p.y));
+      }
+      for (std::size_t i = 0; i < scene::hull_size; ++i) {
+        if (high < to_.hull.edges_m[i] || low > to_.hull.edges_m[i + 1]) continue;
+        to_.hull.radii_m[i] = std::max(to_.hull.radii_m[i], reach);
+      }
+    }
+    // What rounding in a ray's arithmetic may need.
+    const float slack = 1e-4f * std::max(to_.reach_m, height);
+    for (float& radius : to_.hull.radii_m) radius += radius > 0 ? slack : 0;
+    to_.hull.edges_m.front() -= slack;
+    to_.hull.edges_m.back() += slack;
+  }
+
+  void build() {
+    const Device device;
+    std::vector<RTCBuildPrimitive> primitives(triangles_.size());
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      Bounds box;
+      for (const Corner& corner : triangles_[i].corners) box.add(decoded(to_, corner));
+      primitives[i] = {box.least.x, box.least.y, box.least.z, 0,
+                       box.most.x,  box.most.y,  box.most.z,  static_cast<unsigned int>(i)};
+    }
+    RTCBVH bvh = rtcNewBVH(device.get());
+    RTCBuildArguments arguments = rtcDefaultBuildArguments();
+    arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
+    arguments.maxBranchingFactor = scene::node_size;
+    arguments.maxDepth = 64;
+    arguments.sahBlockSize = scene::block_size;
+    arguments.minLeafSize = scene::block_size;
+    arguments.maxLeafSize = scene::block_size;
+    arguments.bvh = bvh;
+    arguments.primitives = primitives.data();
+    arguments.primitiveCount = primitives.size();
+    arguments.primitiveArrayCapacity = primitives.size();
+    arguments.createNode = create_node;
+    arguments.setNodeChildren = set_children;
+    arguments.setNodeBounds = set_bounds;
+    arguments.createLeaf = create_leaf;
+    const auto* root = static_cast<const Built*>(rtcBuildBVH(&arguments));
+    if (!root) {
+      rtcReleaseBVH(bvh);
+      throw silvasim::base::Error("Embree could not build the tree of model \"" + from_.name + "\"");
+    }
+    to_.blocks.reserve(triangles_.size() / 5);
+    to_.nodes.resize(1);
+    if (root->leaf) {
+      BuiltNode above;
+      above.count = 1;
+      above.children[0] = const_cast<Built*>(root);
+      above.bounds[0] = {to_.least, to_.most};
+      fill(0, above);
+    } else {
+      fill(0, *static_cast<const BuiltNode*>(root));
+    }
+    rtcReleaseBVH(bvh);
+    to_.nodes.shrink_to_fit();
+    to_.blocks.shrink_to_fit();
+    to_.slots.shrink_to_fit();
+  }
+
+  void fill(std::size_t index, const BuiltNode& built) {
+    scene::TreeNode node;
+    Bounds box;
+    for (std::uint32_t c = 0; c < built.count; ++c) box.add(built.bounds[c]);
+    for (int a = 0; a < 3; ++a) {
+      const auto axis = static_cast<std::size_t>(a);
+      node.origin[axis] = box.least[a];
+      // One byte less than there are, so that rounding outward stays in range.
+      node.step[axis] = std::max((box.most[a] - box.least[a]) / 254.0f, 1e-7f);
+      for (std::uint32_t c = 0; c < built.count; ++c) {
+        const auto decoded_bound = [&](int byte) {
+          return node.origin[axis] + node.step[axis] * static_cast<float>(byte);
+        };
+        int low = static_cast<int>(std::floor((built.bounds[c].least[a] - node.origin[axis]) / node.step[axis]));
+        int high = static_cast<int>(std::ceil((built.bounds[c].most[a] - node.origin[axis]) / node.step[axis]));
+        while (low > 0 && decoded_bound(low) > built.bounds[c].least[a]) --low;
+        while (high < 255 && decoded_bound(high) < built.bounds[c].most[a]) ++high;
+        node.least[axis][c] = static_cast<std::uint8_t>(std::clamp(low, 0, 255));
+        node.most[axis][c] = static_cast<std::uint8_t>(std::clamp(high, 0, 255));
+      }
+    }
+    std::uint32_t inner = 0;
+    for (std::uint32_t c = 0; c < built.count; ++c) {
+      const auto bit = static_cast<std::uint16_t>(1u << c);
+      if (built.children[c]->leaf) {
+        node.leaves |= bit;
+      } else {
+        node.inner |= bit;
+        ++inner;
+      }
+    }
+    node.first_block = static_cast<std::uint32_t>(to_.blocks.size());
+    for (std::uint32_t c = 0; c < built.count; ++c)
+      if (built.children[c]->leaf) add_block(*static_cast<const BuiltLeaf*>(built.children[c]));
+    node.first_node = static_cast<std::uint32_t>(to_.nodes.size());
+    to_.nodes.resize(to_.nodes.size() + inner);
+    to_.nodes[index] = node;
+    std::uint32_t next = node.first_node;
+    for (std::uint32_t c = 0; c < built.count; ++c)
+      if (!built.children[c]->leaf) fill(next++, *static_cast<const BuiltNode*>(built.children[c]));
+  }
+
+  void add_block(const BuiltLeaf& leaf) {
+    scene::TriangleBlock block;
+    const auto& first = triangles_[leaf.triangles[0]].corners[0].at;
+    for (std::size_t lane = 0; lane < scene::block_size; ++lane) {
+      const bool there = lane < leaf.count;
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          block.corners[corner][axis][lane] =
+              there ? triangles_[leaf.triangles[lane]].corners[corner].at[axis] : first[axis];
+        }
+      }
+      to_.slots.push_back(there ? slot_of(triangles_[leaf.triangles[lane]].from) : scene::Slot{});
+    }
+    to_.blocks.push_back(block);
+  }
+
+  scene::Slot slot_of(std::uint32_t triangle) const {
+    scene::Slot slot;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::uint32_t vertex = from_.triangles[triangle][c];
+      const V2 uv = from_.uvs[vertex] - to_.uv_origin;
+      slot.uv[c] = {static_cast<std::uint16_t>(to_.uv_step.x > 0 ? std::lround(uv.x / to_.uv_step.x) : 0),
+                    static_cast<std::uint16_t>(to_.uv_step.y > 0 ? std::lround(uv.y / to_.uv_step.y) : 0)};
+      slot.normals[c] = scene::packed_normal(from_.normals[vertex]);
+    }
+    slot.material = from_.triangle_materials[triangle];
+    return slot;
+  }
+
+  template <typename Visit>
+  void for_each_corner(Visit&& visit) const {
+    for (const Triangle& triangle : triangles_)
+      for (const Corner& corner : triangle.corners) visit(decoded(to_, corner));
+  }
+
+  const assets::Model& from_;
+  PlantModel& to_;
+  std::vector<Triangle> triangles_;
+};
+
+}  // namespace
+
+PlantModel pack(const assets::Model& model) {
+  PlantModel packed;
+  packed.name = model.name;
+  packed.materials = model.materials;
+  packed.textures = model.textures;
+  Packer(model, packed).run();
+  return packed;
+}
+
+}  // namespace silvavis::accel

@@ -1,0 +1,15 @@
+// From a model of floats to the quantised one that is traced: builds the tree, orders triangles by its leaves.
+//
+// The tree's shape comes from Embree's builder (surface area heuristic); its nodes and leaves are ours.
+// Errors: base::Error for a model whose triangles all vanish at 1/65535 of its size.
+// Threads: parallel inside. Cost: 160,000 triangles in about 0.15 s on two cores.
+#pragma once
+
+#include "silvavis/assets/model.h"
+#include "silvavis/scene/plant_model.h"
+
+namespace silvavis::accel {
+
+scene::PlantModel pack(const assets::Model& model);
+
+}  // namespace silvavis::accel

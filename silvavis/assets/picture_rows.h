@@ -1,0 +1,35 @@
+// A picture's rows as 8-bit RGBA, through OpenImageIO's cache.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "silvavis/assets/texture.h"
+
+namespace silvavis::assets {
+
+class PictureRows {
+ public:
+  // Looks at the size only. Errors: base::Error for what is no known format, or too large.
+  explicit PictureRows(const Picture& picture);
+  PictureRows(const PictureRows&) = delete;
+  PictureRows& operator=(const PictureRows&) = delete;
+  ~PictureRows();
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  bool has_alpha() const { return has_alpha_; }
+
+  // Rows [first, end), 4 bytes a pixel, row by row; alpha is 255 where the picture has none.
+  void read(int first, int end, std::vector<std::uint8_t>& rgba);
+
+ private:
+  struct Source;
+  std::unique_ptr<Source> source_;
+  int width_ = 1;
+  int height_ = 1;
+  bool has_alpha_ = false;
+};
+
+}  // namespace silvavis::assets

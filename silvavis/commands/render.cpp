@@ -1,0 +1,119 @@
+#include "silvavis/commands/render.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "silvasim/base/error.h"
+#include "silvasim/base/machine.h"
+#include "silvasim/base/parallel.h"
+#include "silvavis/image/file.h"
+
+namespace silvavis::commands {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using silvasim::base::ConfigError;
+
+shade::Camera camera_for(const RenderOptions& options, const scene::Scene& scene) {
+  shade::Camera camera;
+  parse_size(options.size, camera.width, camera.height);
+  if (options.eye.empty() != options.look_at.empty())
+    throw ConfigError({"command line", 0, 0}, "--eye and --look-at belong together");
+  if (options.eye.empty()) {
+    shade::FitOptions fit;
+    fit.fov_deg = options.fov_deg;
+    fit.width = camera.width;
+    fit.height = camera.height;
+    return shade::fitted_camera(scene_box(scene), fit);
+  }
+  camera.eye = world_point(scene, options.eye, "--eye");
+  camera.look_at = world_point(scene, options.look_at, "--look-at");
+  camera.fov_deg = options.fov_deg;
+  return camera;
+}
+
+// What was asked for stays; empty channels are not written.
+void keep_asked(image::Frame& frame, const std::vector<std::string>& aovs) {
+  const auto asked = [&](const char* name) { return std::find(aovs.begin(), aovs.end(), name) != aovs.end(); };
+  if (!asked("depth")) frame.depth = {};
+  if (!asked("normal")) frame.normal = {};
+  if (!asked("species")) frame.species.clear();
+  if (!asked("plant-id")) frame.plants.clear();
+}
+
+}  // namespace
+
+void render(const RenderOptions& options) {
+  const Common& common = options.stage.common;
+  const silvasim::base::ThreadLimit threads(common.threads);
+  image::WriteOptions write;
+  write.exposure_stops = options.exposure_stops;
+  write.inputs = {options.stage.ecosystem};
+  image::check_writable(options.output, write);
+  const silvasim::base::Progress progress = silvasim::terminal::console_progress(common);
+  const std::unique_ptr<Stage> stage = set_stage(options.stage, progress);
+
+  silvavis::RenderOptions settings;
+  settings.camera = camera_for(options, stage->scene);
+  settings.samples = options.samples;
+  settings.error = options.error;
+  settings.sky_rays = options.sky_rays;
+  settings.sun_shadows = options.shadows;
+  settings.aovs = !options.aovs.empty();
+  settings.seed = options.stage.seed;
+  const auto begin = std::chrono::steady_clock::now();
+  RenderStatistics statistics;
+  image::Frame frame =
+      silvavis::render(stage->scene, *stage->tracer, *stage->light, stage->land, settings, progress, &statistics);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  keep_asked(frame, options.aovs);
+  const V3d eye = settings.camera.eye, at = settings.camera.look_at;
+  const auto place = [&](const V3d& p) {
+    return fmt::format("{:.2f},{:.2f},{:.2f}", p.x + stage->scene.origin.x, p.y + stage->scene.origin.y, p.z);
+  };
+  write.metadata = {{"Software", std::string("silvavis ") + SILVA_VERSION},
+                    {"silva:eye", place(eye)},
+                    {"silva:look_at", place(at)},
+                    {"silva:fov_deg", fmt::format("{}", settings.camera.fov_deg)},
+                    {"silva:sun", fmt::format("{:.2f},{:.2f}", stage->sun.azimuth_deg, stage->sun.elevation_deg)}};
+  image::write(options.output, frame, write);
+  silvasim::terminal::end_progress(common);
+
+  const double samples =
+      static_cast<double>(statistics.eye_rays) / (static_cast<double>(settings.camera.width) * settings.camera.height);
+  if (common.json) {
+    const Stage::Seconds& s = stage->seconds;
+    Json json;
+    json["output"] = options.output.string();
+    json["plants"] = stage->scene.plants;
+    json["models"] = stage->scene.models.size();
+    json["eye"] = place(eye);
+    json["look_at"] = place(at);
+    json["fov_deg"] = settings.camera.fov_deg;
+    json["size"] = {settings.camera.width, settings.camera.height};
+    json["sun"] = {{"azimuth_deg", stage->sun.azimuth_deg}, {"elevation_deg", stage->sun.elevation_deg}};
+    json["samples_a_pixel"] = samples;
+    json["rays"] = {{"eye", statistics.eye_rays}, {"shadow", statistics.shadow_rays}};
+    json["bytes"] = {{"plants", stage->scene.plant_bytes()},
+                     {"tracer", stage->tracer->bytes()},
+                     {"peak_rss", silvasim::base::peak_rss_bytes()}};
+    json["seconds"] = {{"read", s.read},     {"models", s.models}, {"scene", s.scene},
+                       {"tracer", s.tracer}, {"light", s.light},   {"render", seconds}};
+    json["threads"] = silvasim::base::thread_count();
+    json["warnings"] = stage->warnings;
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+  } else if (!common.quiet) {
+    fmt::print(
+        "{}: {} plants, {} x {} pixels, {:.1f} samples a pixel, sun {:.1f} degrees high in {:.0f} degrees; {:.2f} s, "
+        "peak {}\n",
+        options.output.string(), silvasim::terminal::grouped(stage->scene.plants), settings.camera.width,
+        settings.camera.height, samples, stage->sun.elevation_deg, stage->sun.azimuth_deg, seconds,
+        silvasim::terminal::bytes_text(silvasim::base::peak_rss_bytes()));
+  }
+}
+
+}  // namespace silvavis::commands

@@ -1,0 +1,137 @@
+#include "silvavis/commands/stage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "silvasim/base/error.h"
+#include "silvasim/base/words.h"
+#include "silvasim/ecosystem/file.h"
+#include "silvasim/fields/field_set.h"
+#include "silvavis/accel/embree.h"
+#include "silvavis/accel/nested.h"
+#include "silvavis/flora.h"
+
+namespace silvavis::commands {
+
+namespace {
+
+using silvasim::base::ConfigError;
+
+[[noreturn]] void wrong(const std::string& message) { throw ConfigError({"command line", 0, 0}, message); }
+
+double seconds_since(std::chrono::steady_clock::time_point& mark) {
+  const auto now = std::chrono::steady_clock::now();
+  const double seconds = std::chrono::duration<double>(now - mark).count();
+  mark = now;
+  return seconds;
+}
+
+std::map<std::string, std::string> overrides(const std::vector<std::string>& given) {
+  std::map<std::string, std::string> models;
+  for (const std::string& text : given) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+      wrong("--model \"" + text + "\" should read \"Scientific name=file\", \"...=grown\" or \"...=none\"");
+    models[text.substr(0, equals)] = text.substr(equals + 1);
+  }
+  return models;
+}
+
+shade::SunPosition sun_for(const StageOptions& options, const silvasim::fields::FrameReport& frame) {
+  if (!options.sun_direction.empty()) return {options.sun_direction[0], options.sun_direction[1]};
+  const shade::Moment moment = shade::parse_moment(options.sun.empty() ? "2026-06-21T10:00" : options.sun);
+  // Land without a place on the earth lies in the middle of Europe.
+  const double longitude = frame.centre ? frame.centre->longitude_deg : 10.0;
+  const double latitude = frame.centre ? frame.centre->latitude_deg : 50.0;
+  return shade::sun_position(moment, longitude, latitude);
+}
+
+}  // namespace
+
+std::unique_ptr<Stage> set_stage(const StageOptions& options, const silvasim::base::Progress& progress) {
+  auto stage = std::make_unique<Stage>();
+  auto mark = std::chrono::steady_clock::now();
+  silvasim::ecosystem::Ecosystem ecosystem = silvasim::ecosystem::read(options.ecosystem, progress);
+  stage->seconds.read = seconds_since(mark);
+  const silvasim::fields::FrameReport frame = silvasim::fields::report_frame({ecosystem.crs_wkt, "", ecosystem.extent});
+
+  FloraOptions flora_options;
+  flora_options.folder = options.models ? *options.models : options.ecosystem.parent_path();
+  flora_options.overrides = overrides(options.model);
+  flora_options.layers = options.layers;
+  flora_options.triangles = options.triangles;
+  flora_options.variants = options.variants;
+  flora_options.seed = options.seed;
+  Flora flora = models_of(ecosystem, flora_options, progress);
+  stage->warnings = std::move(flora.warnings);
+  stage->seconds.models = seconds_since(mark);
+
+  stage->scene = scene::make_scene(std::move(ecosystem), flora.models);
+  stage->scene.seed = options.seed;
+  stage->seconds.scene = seconds_since(mark);
+  stage->tracer = options.backend == "embree" ? accel::make_embree(stage->scene) : accel::make_nested(stage->scene);
+  stage->seconds.tracer = seconds_since(mark);
+
+  stage->sun = sun_for(options, frame);
+  shade::SkyOptions sky;
+  sky.sun_direction = shade::sun_direction(stage->sun, frame.convergence_deg);
+  sky.visibility_km = options.visibility_km;
+  stage->light = std::make_unique<Light>(sky);
+  stage->seconds.light = seconds_since(mark);
+  if (!options.common.quiet)
+    for (const std::string& warning : stage->warnings)
+      fmt::print(stderr, "silvavis: warning: {}\n", silvasim::base::printable(warning));
+  return stage;
+}
+
+V3d world_point(const scene::Scene& scene, const std::string& text, const char* option) {
+  double numbers[3];
+  bool above_ground = false;
+  const char* at = text.data();
+  const char* const end = text.data() + text.size();
+  for (int i = 0; i < 3; ++i) {
+    if (i == 2 && at < end && *at == '+') {
+      above_ground = true;
+      ++at;
+    }
+    const auto [rest, error] = std::from_chars(at, end, numbers[i]);
+    const bool last = i == 2;
+    if (error != std::errc() || !std::isfinite(numbers[i]) || (last ? rest != end : rest == end || *rest != ','))
+      wrong(fmt::format(
+          "{} \"{}\" should be easting, northing and height, like 572000,5726500,640, or +12 for 12 m above the ground",
+          option, text));
+    at = rest + 1;
+  }
+  V3d point(numbers[0] - scene.origin.x, numbers[1] - scene.origin.y, numbers[2]);
+  if (above_ground) point.z += scene::ground_at(scene.ground, point.x, point.y).height_m;
+  return point;
+}
+
+shade::SceneBox scene_box(const scene::Scene& scene) {
+  const scene::Pyramid& ground = scene.ground.pyramid;
+  shade::SceneBox box{scene.extent, static_cast<double>(ground.origin_m),
+                      static_cast<double>(ground.origin_m + 65535 * ground.step_m)};
+  for (const scene::PlantLayer& layer : scene.layers)
+    box.greatest_z_m =
+        std::max(box.greatest_z_m, static_cast<double>(layer.pyramid.origin_m + 65535 * layer.pyramid.step_m));
+  return box;
+}
+
+void parse_size(const std::string& text, int& width, int& height) {
+  const char* const end = text.data() + text.size();
+  const auto [cross, first] = std::from_chars(text.data(), end, width);
+  const bool crossed = first == std::errc() && cross != end && (*cross == 'x' || *cross == 'X');
+  const auto [rest, second] =
+      crossed ? std::from_chars(cross + 1, end, height) : std::from_chars_result{end, std::errc::invalid_argument};
+  if (second != std::errc() || rest != end || width < 1 || height < 1 || width > shade::most_side_px ||
+      height > shade::most_side_px)
+    wrong(fmt::format("--size \"{}\" should be width and height in pixels, like 1920x1080, at most {} each", text,
+                      shade::most_side_px));
+}
+
+}  // namespace silvavis::commands

@@ -1,0 +1,113 @@
+#include "silvavis/flora.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "silvasim/base/error.h"
+#include "silvasim/base/parallel.h"
+#include "silvavis/accel/pack.h"
+#include "silvavis/assets/fit.h"
+#include "silvavis/assets/grown/grow.h"
+#include "silvavis/assets/load.h"
+
+namespace silvavis {
+
+namespace {
+
+namespace ecosystem = silvasim::ecosystem;
+
+struct Task {
+  std::size_t layer = 0, species = 0;
+  int variant = 0;
+  std::optional<std::filesystem::path> file;  // none: grown
+};
+
+// A shrub of a metre shows no more than a tree of thirty: triangles go with the height's root.
+int triangles_for(const FloraOptions& options, double height_m) {
+  const double share = std::clamp(std::sqrt(height_m / 25.0), 0.1, 1.0);
+  return std::max(400, static_cast<int>(options.triangles * share));
+}
+
+assets::Model model_for(const Task& task, const ecosystem::Species& species, const FloraOptions& options,
+                        std::vector<std::string>& warnings) {
+  const auto height = static_cast<double>(species.height_m), radius = static_cast<double>(species.model_radius_m);
+  if (task.file) {
+    assets::LoadReport report;
+    assets::Model model = assets::fitted(assets::load(*task.file, {}, &report), {height, radius}, &report);
+    warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
+    return model;
+  }
+  const auto seed = options.seed * 1000003 + static_cast<std::uint64_t>(task.variant);
+  return assets::grown::grow(assets::grown::form_of(species.name, height, radius), height, radius, seed,
+                             {triangles_for(options, height)});
+}
+
+}  // namespace
+
+Flora models_of(const ecosystem::Ecosystem& from, const FloraOptions& options,
+                const silvasim::base::Progress& progress) {
+  Flora flora;
+  std::vector<Task> tasks;
+  for (const auto& [name, model] : options.overrides) {
+    const bool known = std::any_of(from.layers.begin(), from.layers.end(), [&](const ecosystem::Layer& layer) {
+      return std::any_of(layer.species.begin(), layer.species.end(),
+                         [&](const auto& species) { return species.name == name; });
+    });
+    if (!known) throw silvasim::base::Error("there is no species \"" + name + "\" to give the model \"" + model + "\"");
+  }
+  for (std::size_t k = 0; k < from.layers.size(); ++k) {
+    const ecosystem::Layer& layer = from.layers[k];
+    flora.models.emplace_back(layer.species.size());
+    if (!options.layers.empty() &&
+        std::find(options.layers.begin(), options.layers.end(), layer.name) == options.layers.end())
+      continue;
+    const std::vector<std::uint64_t> counts = ecosystem::plants_by_species(layer);
+    for (std::size_t s = 0; s < layer.species.size(); ++s) {
+      if (counts[s] == 0) continue;
+      const ecosystem::Species& species = layer.species[s];
+      const auto override = options.overrides.find(species.name);
+      const std::string named = override != options.overrides.end() ? override->second : species.model;
+      if (named == "none") continue;
+      Task task{k, s, 0, {}};
+      if (!named.empty() && named != "grown") {
+        const std::filesystem::path file =
+            override != options.overrides.end() ? std::filesystem::path(named) : options.folder / named;
+        if (std::filesystem::exists(file) || override != options.overrides.end()) {
+          task.file = file;
+        } else {
+          flora.warnings.push_back(
+              "model \"" + file.string() + "\" of species \"" + species.name +
+              "\" is missing; a grown plant stands in for it (--models FOLDER says where models lie)");
+        }
+      }
+      const int variants = task.file ? 1 : std::max(1, options.variants);
+      flora.models[k][s].resize(static_cast<std::size_t>(variants));
+      for (int v = 0; v < variants; ++v) {
+        task.variant = v;
+        tasks.push_back(task);
+      }
+    }
+  }
+  for (const std::string& name : options.layers) {
+    if (std::none_of(from.layers.begin(), from.layers.end(), [&](const auto& layer) { return layer.name == name; }))
+      throw silvasim::base::Error("there is no layer \"" + name + "\"");
+  }
+
+  std::vector<std::vector<std::string>> warnings(tasks.size());
+  std::atomic<std::size_t> done = 0;
+  silvasim::base::parallel_for(tasks.size(), [&](std::size_t i) {
+    const Task& task = tasks[i];
+    const assets::Model model = model_for(task, from.layers[task.layer].species[task.species], options, warnings[i]);
+    flora.models[task.layer][task.species][static_cast<std::size_t>(task.variant)] =
+        std::make_shared<const scene::PlantModel>(accel::pack(model));
+    silvasim::base::report(progress, "models", static_cast<double>(++done) / static_cast<double>(tasks.size()));
+  });
+  for (const auto& of_task : warnings) flora.warnings.insert(flora.warnings.end(), of_task.begin(), of_task.end());
+  return flora;
+}
+
+}  // namespace silvavis

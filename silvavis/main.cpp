@@ -1,0 +1,134 @@
+// The command line of silvavis. The only place that prints an error and ends the program.
+//
+// Exit codes: 0 done, 1 failed while running, 2 wrong command line, 130 interrupted.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "silvasim/base/error.h"
+#include "silvasim/base/progress.h"
+#include "silvavis/commands/diff.h"
+#include "silvavis/commands/render.h"
+
+namespace {
+
+using namespace silvavis::commands;
+
+struct Options {
+  RenderOptions render;
+  DiffOptions diff;
+};
+
+void add_stage(CLI::App& command, StageOptions& o) {
+  command.add_option("ecosystem", o.ecosystem, "The ecosystem file (.silva)")->required();
+  command.add_option("--layers", o.layers, "Only these vegetation layers, separated by commas")->delimiter(',');
+  command.add_option("--models", o.models,
+                     "Folder in which the models that plants.xml names lie (default: the ecosystem file's)");
+  command.add_option("--model", o.model,
+                     "A species' model: \"Picea abies=spruce.glb\", or =grown, or =none (may be repeated)");
+  command
+      .add_option("--triangles", o.triangles, "Triangles of a grown tree; shrubs and herbs have fewer (default: 40000)")
+      ->check(CLI::Range(400, 2000000));
+  command.add_option("--variants", o.variants, "Grown models a species (default: 2)")->check(CLI::Range(1, 64));
+  command.add_option("--backend", o.backend, "nested: Silva's trees; embree: one flat structure, for comparison")
+      ->check(CLI::IsMember({"nested", "embree"}));
+  command.add_option(
+      "--sun", o.sun,
+      "Date and time, like 2026-06-21T10:00 or with Z or +02:00 (default: that, in the place's zone time)");
+  command.add_option("--sun-direction", o.sun_direction, "AZIMUTH,ELEVATION of the sun in degrees, instead of a time")
+      ->delimiter(',')
+      ->expected(2);
+  command.add_option("--visibility", o.visibility_km, "How far one sees through the haze, in km (default: 60)")
+      ->check(CLI::Range(1.0, 300.0));
+  command.add_option("--seed", o.seed, "Of turns, grown plants and samples (default: 1)")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{9007199254740991}));
+  command.add_flag("--json", o.common.json, "Print one JSON object instead of text");
+  command.add_flag("-q,--quiet", o.common.quiet, "No progress, warnings and summary; only errors");
+  command
+      .add_option("--threads", o.common.threads,
+                  "Threads to use; the result does not depend on it (default: one a core)")
+      ->check(CLI::Range(1, 1024));
+}
+
+void add_render(CLI::App& app, Options& options) {
+  RenderOptions& o = options.render;
+  CLI::App* command = app.add_subcommand("render", "Render a picture");
+  add_stage(*command, o.stage);
+  command
+      ->add_option("-o,--output", o.output, "Picture to write: .exr (linear), .png, .jpg or .tif (as the eye sees it)")
+      ->required();
+  command->add_option("--eye", o.eye,
+                      "E,N,H of the eye in the scene's metres; +H is above the ground (default: the whole scene)");
+  command->add_option("--look-at", o.look_at, "E,N,H of the picture's centre");
+  command->add_option("--fov", o.fov_deg, "Horizontal angle of view in degrees (default: 50)")
+      ->check(CLI::Range(0.01, 170.0));
+  command->add_option("--size", o.size, "WIDTHxHEIGHT in pixels (default: 1920x1080)");
+  command->add_option("--spp", o.samples, "Samples a pixel, at most (default: 16)")->check(CLI::Range(1, 65536));
+  command
+      ->add_option("--error", o.error,
+                   "A pixel has enough samples below this standard error; 0: all take --spp (default: 0.02)")
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_option("--sky-rays", o.sky_rays, "Rays to the sky a sample; 0: the sky casts no shadow (default: 1)")
+      ->check(CLI::Range(0, 256));
+  command->add_flag("!--no-shadows", o.shadows, "The sun casts no shadow");
+  command->add_option("--exposure", o.exposure_stops,
+                      "Stops by which the picture is lightened (default: by its brightness)");
+  command
+      ->add_option(
+          "--aov", o.aovs,
+          "Also keep depth, normal, species, plant-id (commas); EXR holds them, other pictures put them beside")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"depth", "normal", "species", "plant-id"}));
+  command->callback([&o] { render(o); });
+}
+
+void add_diff(CLI::App& app, Options& options) {
+  DiffOptions& o = options.diff;
+  CLI::App* command = app.add_subcommand("diff", "Tell how much two pictures differ");
+  command->add_option("a", o.a, "A picture")->required();
+  command->add_option("b", o.b, "Another of the same size")->required();
+  command->add_option("--metric", o.metrics, "Only these, separated by commas")->delimiter(',');
+  command->add_option("--threshold", o.threshold, "A pixel differs where a channel does by more (default: 0.01)");
+  command->add_option("--at-most", o.at_most, "With one metric: fail where it is worse than this");
+  command->add_flag("--json", o.json, "Print one JSON object instead of text");
+  command->callback([&o] { diff(o); });
+}
+
+int fail(int code, const std::string& message, bool complete = false) {
+  std::fputs(((complete ? "" : "silvavis: error: ") + message + "\n").c_str(), stderr);
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  silvasim::base::install_interrupt_handler();
+  CLI::App app("SilvaVis renders the landscapes that silvasim grows.", "silvavis");
+  app.set_version_flag("--version", std::string("silvavis ") + SILVA_VERSION);
+  app.require_subcommand(1);
+  Options options;
+  add_render(app, options);
+  add_diff(app, options);
+  app.footer("silvavis COMMAND --help tells a command's options.");
+  try {
+    app.parse(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail(1, "cannot write to standard output");
+    return 0;
+  } catch (const CLI::Success& done) {
+    return app.exit(done);
+  } catch (const CLI::ParseError& error) {
+    return fail(2, std::string(error.what()) + "; see silvavis --help");
+  } catch (const silvasim::base::Cancelled&) {
+    return fail(130, "interrupted; nothing was left half-written");
+  } catch (const silvasim::base::ConfigError& error) {
+    return fail(2, error.what(), true);
+  } catch (const silvasim::base::Error& error) {
+    return fail(1, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(1, "out of memory; lessen the picture or the models' triangles");
+  } catch (const std::exception& error) {
+    return fail(1, error.what());
+  }
+}

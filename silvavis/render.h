@@ -1,0 +1,47 @@
+// From a scene to a picture.
+//
+// Each pixel's samples are keyed by (seed, pixel, sample) alone: the same seed gives the same picture on any number of
+// threads. A sample is one ray from the eye, one towards the sun and `sky_rays` to the sky. With `error` above zero a pixel
+// ends early once the standard error of its tone is below it.
+// Errors: base::Error for a camera that sees nothing; base::Cancelled from the progress.
+// Threads: parallel inside, by blocks of 16 x 16 pixels. Cost: docs/performance.md.
+#pragma once
+
+#include <cstdint>
+
+#include "silvasim/base/progress.h"
+#include "silvavis/accel/tracer.h"
+#include "silvavis/image/image.h"
+#include "silvavis/shade/camera.h"
+#include "silvavis/shade/haze.h"
+#include "silvavis/shade/land.h"
+#include "silvavis/shade/sky.h"
+
+namespace silvavis {
+
+struct Light {
+  shade::Sky sky;
+  shade::Haze haze;
+
+  explicit Light(const shade::SkyOptions& options) : sky(options), haze(sky) {}
+};
+
+struct RenderOptions {
+  shade::Camera camera;  // world space
+  int samples = 16;      // the most a pixel gets
+  double error = 0.02;  // a pixel ends below this standard error of its square-rooted luminance; 0: all get all samples
+  int sky_rays = 1;     // 0: the sky without shadows of its own
+  bool sun_shadows = true;
+  bool aovs = false;  // depth, normal, species, plant
+  std::uint64_t seed = 1;
+};
+
+struct RenderStatistics {
+  std::uint64_t eye_rays = 0, shadow_rays = 0;
+};
+
+image::Frame render(const scene::Scene& scene, const accel::Tracer& tracer, const Light& light, const shade::Land& land,
+                    const RenderOptions& options, const silvasim::base::Progress& progress = {},
+                    RenderStatistics* statistics = nullptr);
+
+}  // namespace silvavis

@@ -1,0 +1,205 @@
+#include "silvavis/scene/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "silvasim/base/error.h"
+#include "silvasim/base/parallel.h"
+#include "silvavis/scene/instance.h"
+#include "silvavis/scene/tile_sites.h"
+
+namespace silvavis::scene {
+
+namespace {
+
+namespace ecosystem = silvasim::ecosystem;
+
+// A species' models go into the scene's list; the layer learns how far they reach.
+void add_species(Scene& scene, PlantLayer& layer, const ecosystem::Species& species, const SpeciesModelSet& models) {
+  SpeciesModels entry;
+  entry.name = species.name;
+  entry.first_model = static_cast<std::uint32_t>(scene.models.size());
+  entry.variants = static_cast<std::uint32_t>(models.size());
+  entry.model_radius_m = species.model_radius_m;
+  entry.colour = species.colour;
+  for (const auto& model : models) {
+    layer.most_reach = std::max(layer.most_reach, model->reach_m / species.model_radius_m * 1.001f);
+    layer.most_height = std::max(layer.most_height, model->most.z / species.model_radius_m);
+    layer.least_height = std::min(layer.least_height, model->least.z / species.model_radius_m);
+    scene.models.push_back(model);
+  }
+  layer.species.push_back(std::move(entry));
+}
+
+// How far plants of any tile stand over its edges.
+float overhang(const PlantLayer& layer) {
+  const auto side = static_cast<float>(layer.tile_side_m);
+  float most = 0;
+  for (const TileSites& tile : layer.tile_sites) {
+    for (std::size_t s = 0; s < tile.count; ++s) {
+      const float x = tile.x_m[s], y = tile.y_m[s], r = tile.reach_m[s];
+      most = std::max({most, r - x, r - y, x + r - side, y + r - side});
+    }
+  }
+  return most;
+}
+
+// Heights and species of one tile position's plants, in its tile's slot order.
+HeightRange place_plants(const Scene& scene, PlantLayer& layer, const ecosystem::Layer& from, int column, int row,
+                         std::vector<double>& heights) {
+  const std::size_t position = layer.position(column, row);
+  const TileSites& tile = layer.tile_sites[layer.tiles[position]];
+  const std::uint64_t first = layer.first_slot[position];
+  const double west = layer.west + column * layer.tile_side_m, south = layer.south + row * layer.tile_side_m;
+  heights.assign(tile.count, 0);
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  HeightRange range;
+  range.least_m = std::numeric_limits<float>::infinity();
+  range.most_m = -range.least_m;
+  for (std::uint32_t slot = 0; slot < tile.count; ++slot) {
+    const ecosystem::PlantId id = from.plants[first + tile.site_ids[slot]];
+    const bool stands = id != ecosystem::no_plant && layer.species[id].variants > 0;
+    layer.plant_species[first + slot] = stands ? static_cast<std::uint8_t>(id) : no_species;
+    if (!stands) continue;
+    const SpeciesModels& species = layer.species[id];
+    const PlantModel& model = *scene.models[species.first_model];
+    const GroundPoint ground = ground_at(scene.ground, west + static_cast<double>(tile.x_m[slot]),
+                                         south + static_cast<double>(tile.y_m[slot]));
+    const double scale = static_cast<double>(tile.radius_m[slot] / species.model_radius_m);
+    // Sunk until no part of the stem's foot hangs over the falling side.
+    const double sunk = static_cast<double>(model.foot_m) * scale * std::hypot(ground.slope_x, ground.slope_y);
+    heights[slot] = ground.height_m - sunk;
+    least = std::min(least, heights[slot]);
+    most = std::max(most, heights[slot]);
+    const auto foot = static_cast<float>(heights[slot]);
+    float low = 0, high = 0;
+    for (std::uint32_t v = 0; v < species.variants; ++v) {
+      low = std::min(low, scene.models[species.first_model + v]->least.z);
+      high = std::max(high, scene.models[species.first_model + v]->most.z);
+    }
+    range.least_m = std::min(range.least_m, foot + low * static_cast<float>(scale));
+    range.most_m = std::max(range.most_m, foot + high * static_cast<float>(scale));
+  }
+  layer.base_m[position] = std::isfinite(least) ? static_cast<float>(least) : 0.0f;
+  layer.step_m[position] = std::isfinite(least) ? static_cast<float>((most - least) / 65535.0) : 0.0f;
+  const double step = static_cast<double>(layer.step_m[position]), base = static_cast<double>(layer.base_m[position]);
+  for (std::uint32_t slot = 0; slot < tile.count; ++slot) {
+    const double stored = step > 0 ? std::round((heights[slot] - base) / step) : 0;
+    layer.plant_heights[first + slot] = static_cast<std::uint16_t>(std::clamp(stored, 0.0, 65535.0));
+  }
+  return range;
+}
+
+void place_layer(Scene& scene, PlantLayer& layer, const ecosystem::Layer& from) {
+  const std::size_t positions = layer.tiles.size();
+  layer.base_m.resize(positions);
+  layer.step_m.resize(positions);
+  layer.plant_species.resize(layer.first_slot.back() + 16);
+  layer.plant_heights.resize(layer.first_slot.back() + 16);
+  std::fill(layer.plant_species.end() - 16, layer.plant_species.end(), no_species);
+  std::fill(layer.plant_heights.end() - 16, layer.plant_heights.end(), std::uint16_t{0});
+
+  std::vector<HeightRange> ranges(positions);  // from the south
+  std::vector<std::uint64_t> standing(static_cast<std::size_t>(layer.rows));
+  silvasim::base::parallel_for(static_cast<std::size_t>(layer.rows), [&](std::size_t r) {
+    std::vector<double> heights;
+    const int row = static_cast<int>(r);
+    for (int column = 0; column < layer.columns; ++column) {
+      ranges[r * static_cast<std::size_t>(layer.columns) + static_cast<std::size_t>(column)] =
+          place_plants(scene, layer, from, column, row, heights);
+      const std::size_t position = layer.position(column, row);
+      standing[r] += static_cast<std::uint64_t>(
+          std::count_if(layer.plant_species.begin() + static_cast<std::ptrdiff_t>(layer.first_slot[position]),
+                        layer.plant_species.begin() + static_cast<std::ptrdiff_t>(layer.first_slot[position + 1]),
+                        [](std::uint8_t species) { return species != no_species; }));
+    }
+  });
+  for (const std::uint64_t count : standing) scene.plants += count;
+
+  HeightRange whole{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
+  for (const HeightRange& range : ranges) {
+    whole.least_m = std::min(whole.least_m, range.least_m);
+    whole.most_m = std::max(whole.most_m, range.most_m);
+  }
+  if (whole.least_m > whole.most_m) whole = {0, 0};  // no plant at all
+  layer.pyramid = make_pyramid(layer.columns, layer.rows, whole, [&](int column, int row) {
+    return ranges[static_cast<std::size_t>(row) * static_cast<std::size_t>(layer.columns) +
+                  static_cast<std::size_t>(column)];
+  });
+  layer.pyramid.west = static_cast<float>(layer.west);
+  layer.pyramid.south = static_cast<float>(layer.south);
+  layer.pyramid.cell_x_m = layer.pyramid.cell_y_m = static_cast<float>(layer.tile_side_m);
+  layer.pyramid.margin_m = overhang(layer) + 0.01f;
+}
+
+}  // namespace
+
+const std::array<Turn, 256>& turns() {
+  static const std::array<Turn, 256> table = [] {
+    std::array<Turn, 256> turns;
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+      const double angle = 2 * std::numbers::pi * static_cast<double>(i) / 256;
+      turns[i] = {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+    }
+    return turns;
+  }();
+  return table;
+}
+
+std::size_t Scene::plant_bytes() const {
+  std::size_t sum = 0;
+  for (const PlantLayer& layer : layers) {
+    sum += layer.plant_species.size() + 2 * layer.plant_heights.size() + layer.pyramid.bytes();
+    sum += layer.tiles.size() * (2 + 8 + 4 + 4);
+    for (const TileSites& tile : layer.tile_sites)
+      sum += tile.x_m.size() * 16 + tile.site_ids.size() * 4 + tile.nodes.size() * sizeof(SiteNode);
+  }
+  return sum;
+}
+
+Scene make_scene(ecosystem::Ecosystem from, const std::vector<std::vector<SpeciesModelSet>>& models) {
+  Scene scene;
+  scene.crs_wkt = from.crs_wkt;
+  const silvasim::base::Box& extent = from.extent;
+  scene.origin = {std::round(0.5 * (extent.west + extent.east)), std::round(0.5 * (extent.south + extent.north))};
+  scene.extent = {extent.west - scene.origin.x, extent.south - scene.origin.y, extent.east - scene.origin.x,
+                  extent.north - scene.origin.y};
+  scene.ground = make_ground(from.terrain, extent, scene.origin);
+  from.terrain = {};
+  std::uint32_t first_species = 0;
+  std::uint64_t first_plant = 0;
+  for (std::size_t k = 0; k < from.layers.size(); ++k) {
+    ecosystem::Layer& source = from.layers[k];
+    if (source.species.size() > no_species) {
+      throw silvasim::base::Error("layer \"" + source.name + "\" has " + std::to_string(source.species.size()) +
+                                  " species; pictures hold at most 254 a layer");
+    }
+    PlantLayer layer;
+    layer.name = source.name;
+    layer.tile_side_m = source.tile_set.side_m;
+    layer.columns = source.tiling.columns;
+    layer.rows = source.tiling.rows;
+    layer.west = source.north_west.x - scene.origin.x;
+    layer.south = source.north_west.y - scene.origin.y - layer.rows * layer.tile_side_m;
+    layer.first_species = first_species;
+    layer.first_plant = first_plant;
+    for (std::size_t s = 0; s < source.species.size(); ++s) add_species(scene, layer, source.species[s], models[k][s]);
+    layer.tile_sites.resize(source.tile_set.tiles.size());
+    silvasim::base::parallel_for(layer.tile_sites.size(), [&](std::size_t t) {
+      layer.tile_sites[t] = make_tile_sites(source.tile_set.tiles[t], layer.most_reach);
+    });
+    layer.first_slot = ecosystem::site_offsets(source.tile_set, source.tiling);
+    layer.tiles = std::move(source.tiling.tiles);
+    place_layer(scene, layer, source);
+    first_species += static_cast<std::uint32_t>(source.species.size());
+    first_plant += layer.first_slot.back();
+    source = {};
+    scene.layers.push_back(std::move(layer));
+  }
+  return scene;
+}
+
+}  // namespace silvavis::scene
