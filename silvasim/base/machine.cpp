@@ -1,7 +1,10 @@
 #include "silvasim/base/machine.h"
 
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
+
+#include "silvasim/base/huge_vector.h"
 
 namespace silvasim::base {
 
@@ -14,6 +17,17 @@ std::uint64_t peak_rss_bytes() {
   struct rusage usage {};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+void ask_for_huge_pages(void* buffer, std::size_t bytes) {
+#ifdef MADV_HUGEPAGE
+  // Whole pages only: a last one that is hardly used would take 2 MB all the same.
+  constexpr std::size_t huge_page = std::size_t{2} << 20;
+  madvise(buffer, bytes / huge_page * huge_page, MADV_HUGEPAGE);
+#else
+  (void)buffer;
+  (void)bytes;
+#endif
 }
 
 }  // namespace silvasim::base

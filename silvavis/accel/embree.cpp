@@ -57,7 +57,7 @@ class FlushDenormals {
 
 // Whether a hit does not count: a hole, or the back of a leaf that has none.
 bool is_nothing(const scene::PlantModel& model, unsigned int slot, float u, float v, bool from_behind) {
-  return (from_behind && !model.materials[model.slots[slot].material].two_sided) || scene::is_hole(model, slot, u, v);
+  return (from_behind && !model.cutouts[model.material_of(slot)].two_sided) || scene::is_hole(model, slot, u, v);
 }
 
 bool from_behind(const RTCFilterFunctionNArguments& a, unsigned int i) {
@@ -242,8 +242,8 @@ class Flatland final : public Tracer {
     std::unordered_map<std::uint64_t, std::uint32_t> numbers;
     std::vector<V3> vertices;
     auto* indices = static_cast<std::uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, model.slots.size()));
-    for (std::uint32_t slot = 0; slot < model.slots.size(); ++slot) {
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, model.normals.size()));
+    for (std::uint32_t slot = 0; slot < model.normals.size(); ++slot) {
       for (int c = 0; c < 3; ++c) {
         const auto& corner = model.blocks[slot / scene::block_size].corners[static_cast<std::size_t>(c)];
         const std::uint32_t lane = slot % scene::block_size;
@@ -259,8 +259,8 @@ class Flatland final : public Tracer {
     for (std::size_t i = 0; i < vertices.size(); ++i) std::copy_n(&vertices[i].x, 3, buffer + i * 3);
     rtcSetGeometryUserData(geometry, const_cast<scene::PlantModel*>(&model));
     const bool holes =
-        std::any_of(model.materials.begin(), model.materials.end(),
-                    [](const assets::Material& material) { return material.alpha_cutoff > 0 || !material.two_sided; });
+        std::any_of(model.cutouts.begin(), model.cutouts.end(),
+                    [](const scene::Cutout& cutout) { return cutout.width > 0 || !cutout.two_sided; });
     if (holes) {
       rtcSetGeometryIntersectFilterFunction(geometry, exact_ ? skip_holes_exactly : skip_holes);
       rtcSetGeometryOccludedFilterFunction(geometry, exact_ ? skip_holes_exactly : skip_holes);

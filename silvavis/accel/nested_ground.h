@@ -1,4 +1,4 @@
-// The walk over a pyramid, and the ground's cells at its end.
+// The walk over a pyramid, and the ground's cells.
 #if defined(SILVAVIS_NESTED_GROUND) == defined(HWY_TARGET_TOGGLE)
 #ifdef SILVAVIS_NESTED_GROUND
 #undef SILVAVIS_NESTED_GROUND
@@ -11,28 +11,41 @@
 HWY_BEFORE_NAMESPACE();
 namespace silvavis::accel::HWY_NAMESPACE {
 
-// Calls leaf(column, row, near, far, low, high) for the items whose box the ray crosses between `least` and `best`, about front to
-// back; `best` may shrink meanwhile, and leaf returns true to end the walk.
-template <typename Leaf>
-HWY_INLINE void walk_pyramid(const scene::Pyramid& pyramid, const FlatRay& ray, float least, const double& best,
-                             Leaf& leaf) {
-  struct Entry {
-    float near, far, low, high;
-    std::int32_t level, column, row;
-  };
+// A node of a pyramid (level >= 0) or an item (level -1) that the ray meets between near and far.
+struct PyramidEntry {
+  float near, far, low, high;
+  std::int32_t level, column, row;
+};
+struct PyramidStack {
   // Levels shrink sixteenfold: sixteen levels hold any grid, and a level leaves at most fifteen behind.
-  Entry stack[16 * 15 + 1];
+  PyramidEntry entries[16 * 15 + 4];
   int size = 0;
-  const int top = static_cast<int>(pyramid.levels.size()) - 1;
-  stack[size++] = {least, static_cast<float>(std::min(best, 1e30)), 0, 0, top, 0, 0};
+
+  HWY_INLINE void push(const PyramidEntry& entry) { entries[size++] = entry; }
+};
+
+// Bits of children 4 y + x turned so that the ray's own direction only grows: then rising bits are front to back.
+HWY_INLINE std::uint32_t turned_bits(std::uint32_t bits, bool flip_x, bool flip_y) {
+  if (flip_x) bits = (bits & 0x1111) << 3 | (bits & 0x2222) << 1 | (bits & 0x4444) >> 1 | (bits & 0x8888) >> 3;
+  if (flip_y) bits = (bits & 0x000F) << 12 | (bits & 0x00F0) << 4 | (bits & 0x0F00) >> 4 | (bits & 0xF000) >> 12;
+  return bits;
+}
+
+// Calls leaf(column, row, near, far, low, high) for the items whose box the ray crosses, about front to back, from the nodes on
+// the stack down; `best` may shrink meanwhile, and leaf returns true to end the walk.
+template <typename Leaf>
+HWY_INLINE void walk_pyramid(const scene::Pyramid& pyramid, const FlatRay& ray, PyramidStack& stack, const double& best, Leaf& leaf) {
   const bool flip_x = ray.dx < 0, flip_y = ray.dy < 0;
   const std::uint32_t flip = (flip_x ? 3u : 0u) | (flip_y ? 12u : 0u);
-  const float margin = pyramid.margin_m + 1e-3f;
-  // Floats of world space are off by up to the ray's length / 2^23.
+  const float margin = pyramid.margin_m + 0.01f;  // floats of world space are off by millimetres
   constexpr float slack_m = 0.05f;
+  HWY_ALIGN static constexpr float columns[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+  HWY_ALIGN static constexpr float rows[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+  const V8 step = hn::Set(f8, pyramid.step_m), base = hn::Set(f8, pyramid.origin_m);
+  const V8 dz = hn::Set(f8, ray.dz), oz = hn::Set(f8, ray.oz);
 
-  while (size > 0) {
-    const Entry entry = stack[--size];
+  while (stack.size > 0) {
+    const PyramidEntry entry = stack.entries[--stack.size];
     const auto most = static_cast<float>(std::min(best, 1e30));
     if (entry.near > most) continue;
     if (entry.level < 0) {
@@ -41,62 +54,49 @@ HWY_INLINE void walk_pyramid(const scene::Pyramid& pyramid, const FlatRay& ray, 
     }
     const scene::Pyramid::Level& level = pyramid.levels[static_cast<std::size_t>(entry.level)];
     const scene::PyramidNode& node =
-        level.nodes[static_cast<std::size_t>(entry.row) * static_cast<std::size_t>(level.columns) +
-                    static_cast<std::size_t>(entry.column)];
+        level.nodes[static_cast<std::size_t>(entry.row) * static_cast<std::size_t>(level.columns) + static_cast<std::size_t>(entry.column)];
     const auto across = static_cast<float>(1u << (2 * entry.level));
     const float cell_x = pyramid.cell_x_m * across, cell_y = pyramid.cell_y_m * across;
     const float west = pyramid.west + static_cast<float>(entry.column * 4) * cell_x - ray.ox;
     const float south = pyramid.south + static_cast<float>(entry.row * 4) * cell_y - ray.oy;
-
-    HWY_ALIGN float x_near[4], x_far[4];
-    float y_near[4], y_far[4];
-    for (int k = 0; k < 4; ++k) {
-      const float x0 = (west + static_cast<float>(k) * cell_x - margin) * ray.ix;
-      const float x1 = (west + static_cast<float>(k + 1) * cell_x + margin) * ray.ix;
-      const float y0 = (south + static_cast<float>(k) * cell_y - margin) * ray.iy;
-      const float y1 = (south + static_cast<float>(k + 1) * cell_y + margin) * ray.iy;
-      x_near[k] = std::min(x0, x1);
-      x_far[k] = std::max(x0, x1);
-      y_near[k] = std::min(y0, y1);
-      y_far[k] = std::max(y0, y1);
-    }
+    // Near and far planes of the first column and row; the others follow cell by cell.
+    const float x_in = (west + (flip_x ? cell_x + margin : -margin)) * ray.ix, x_out = (west + (flip_x ? -margin : cell_x + margin)) * ray.ix;
+    const float y_in = (south + (flip_y ? cell_y + margin : -margin)) * ray.iy, y_out = (south + (flip_y ? -margin : cell_y + margin)) * ray.iy;
+    const V8 per_x = hn::Set(f8, cell_x * ray.ix), per_y = hn::Set(f8, cell_y * ray.iy);
+    const V8 least = hn::Set(f8, entry.near), greatest = hn::Set(f8, std::min(entry.far, most));
     HWY_ALIGN float nears[16], fars[16], lows[16], highs[16];
     std::uint32_t hits = 0;
-    for (std::size_t row = 0; row < 4; ++row) {
-      for (std::size_t x = 0; x < 4; x += hn::Lanes(f4)) {
-        const std::size_t child = row * 4 + x;
-        const auto near = hn::Max(hn::Max(hn::Load(f4, x_near + x), hn::Set(f4, y_near[row])), hn::Set(f4, entry.near));
-        const auto far =
-            hn::Min(hn::Min(hn::Load(f4, x_far + x), hn::Set(f4, y_far[row])), hn::Set(f4, std::min(entry.far, most)));
-        const auto step = hn::Set(f4, pyramid.step_m), base = hn::Set(f4, pyramid.origin_m);
-        const auto low = hn::Add(base, hn::Mul(step, four_floats_of(node.least.data() + child)));
-        const auto high = hn::Add(base, hn::Mul(step, four_floats_of(node.most.data() + child)));
-        const auto dz = hn::Set(f4, ray.dz), oz = hn::Set(f4, ray.oz);
-        const auto z_in = hn::Add(oz, hn::Mul(dz, near)), z_out = hn::Add(oz, hn::Mul(dz, far));
-        auto crossed = hn::Le(near, far);
-        crossed = hn::And(crossed, hn::Le(low, high));
-        crossed = hn::And(crossed, hn::Le(hn::Min(z_in, z_out), hn::Add(high, hn::Set(f4, slack_m))));
-        crossed = hn::And(crossed, hn::Ge(hn::Max(z_in, z_out), hn::Sub(low, hn::Set(f4, slack_m))));
-        hn::Store(near, f4, nears + child);
-        hn::Store(far, f4, fars + child);
-        hn::Store(low, f4, lows + child);
-        hn::Store(high, f4, highs + child);
-        hits |= bits_of(f4, crossed) << child;
-      }
+    for (std::size_t k = 0; k < 16; k += hn::Lanes(f8)) {
+      const V8 to_x = hn::Mul(hn::Load(f8, columns + k), per_x), to_y = hn::Mul(hn::Load(f8, rows + k), per_y);
+      const V8 near = hn::Max(hn::Max(hn::Add(hn::Set(f8, x_in), to_x), hn::Add(hn::Set(f8, y_in), to_y)), least);
+      const V8 far = hn::Min(hn::Min(hn::Add(hn::Set(f8, x_out), to_x), hn::Add(hn::Set(f8, y_out), to_y)), greatest);
+      const V8 low = hn::Add(base, hn::Mul(step, floats_of(node.least.data() + k)));
+      const V8 high = hn::Add(base, hn::Mul(step, floats_of(node.most.data() + k)));
+      const V8 z_in = hn::Add(oz, hn::Mul(dz, near)), z_out = hn::Add(oz, hn::Mul(dz, far));
+      auto crossed = hn::And(hn::Le(near, far), hn::Le(low, high));
+      crossed = hn::And(crossed, hn::Le(hn::Min(z_in, z_out), hn::Add(high, hn::Set(f8, slack_m))));
+      crossed = hn::And(crossed, hn::Ge(hn::Max(z_in, z_out), hn::Sub(low, hn::Set(f8, slack_m))));
+      hn::Store(near, f8, nears + k);
+      hn::Store(far, f8, fars + k);
+      hn::Store(low, f8, lows + k);
+      hn::Store(high, f8, highs + k);
+      hits |= bits_of(f8, crossed) << k;
     }
-    // Push from the far corner to the near one: in the ray's own direction columns and rows only grow.
-    for (std::uint32_t k = 16; k-- > 0;) {
-      const std::uint32_t child = k ^ flip;
-      if ((hits >> child & 1) == 0) continue;
-      stack[size++] = {nears[child],
-                       fars[child],
-                       lows[child],
-                       highs[child],
-                       entry.level - 1,
-                       entry.column * 4 + static_cast<std::int32_t>(child & 3),
-                       entry.row * 4 + static_cast<std::int32_t>(child >> 2)};
+    for (std::uint32_t order = turned_bits(hits, flip_x, flip_y); order != 0;) {
+      const auto last = static_cast<std::uint32_t>(std::bit_width(order)) - 1;
+      order ^= 1u << last;
+      const std::uint32_t child = last ^ flip;
+      stack.push({nears[child], fars[child], lows[child], highs[child], entry.level - 1,
+                  entry.column * 4 + static_cast<std::int32_t>(child & 3), entry.row * 4 + static_cast<std::int32_t>(child >> 2)});
     }
   }
+}
+
+template <typename Leaf>
+HWY_INLINE void walk_whole_pyramid(const scene::Pyramid& pyramid, const FlatRay& ray, float least, const double& best, Leaf& leaf) {
+  PyramidStack stack;
+  stack.push({least, static_cast<float>(std::min(best, 1e30)), 0, 0, static_cast<std::int32_t>(pyramid.levels.size()) - 1, 0, 0});
+  walk_pyramid(pyramid, ray, stack, best, leaf);
 }
 
 // The two triangles of a cell. The ray's height above each triangle's plane is linear along it; where it turns from above to
@@ -153,9 +153,35 @@ struct GroundWalk {
   }
 };
 
-HWY_INLINE bool nearest_ground(const scene::Ground& ground, const FlatRay& flat, const Ray& ray, double& best) {
-  GroundWalk walk{ground, ray, best};
-  walk_pyramid(ground.pyramid, flat, static_cast<float>(ray.least), best, walk);
+// The ground between near and far, a stretch no longer than a tile: begins at the few nodes that it can touch.
+HWY_INLINE bool nearest_ground(const scene::Scene& scene, const FlatRay& flat, const Ray& ray, float near, float far, double& best) {
+  const scene::Pyramid& pyramid = scene.ground.pyramid;
+  const scene::Pyramid::Level& level = pyramid.levels[static_cast<std::size_t>(scene.land.ground_level)];
+  const auto across = static_cast<float>(4u << (2 * scene.land.ground_level));
+  const auto node_at = [&](float at, float origin, float size, int count) HWY_ATTR {
+    return std::clamp(static_cast<int>(std::floor((at - origin) / size)), 0, count - 1);
+  };
+  const float wide = pyramid.cell_x_m * across, high = pyramid.cell_y_m * across;
+  const float x0 = flat.ox + flat.dx * near, x1 = flat.ox + flat.dx * far, y0 = flat.oy + flat.dy * near, y1 = flat.oy + flat.dy * far;
+  constexpr float slack_m = 0.02f;
+  const float out_x = flat.dx < 0 ? -slack_m : slack_m, out_y = flat.dy < 0 ? -slack_m : slack_m;
+  const int first_column = node_at(x0 - out_x, pyramid.west, wide, level.columns), last_column = node_at(x1 + out_x, pyramid.west, wide, level.columns);
+  const int first_row = node_at(y0 - out_y, pyramid.south, high, level.rows), last_row = node_at(y1 + out_y, pyramid.south, high, level.rows);
+  PyramidStack stack;
+  const PyramidEntry entry{near, far, 0, 0, scene.land.ground_level, 0, 0};
+  const auto push = [&](int column, int row) HWY_ATTR {
+    PyramidEntry node = entry;
+    node.column = column;
+    node.row = row;
+    stack.push(node);
+  };
+  // The farthest first; a stretch no longer than a node touches at most two columns and two rows.
+  push(last_column, last_row);
+  if (first_column != last_column) push(first_column, last_row);
+  if (first_row != last_row) push(last_column, first_row);
+  if (first_column != last_column && first_row != last_row) push(first_column, first_row);
+  GroundWalk walk{scene.ground, ray, best};
+  walk_pyramid(pyramid, flat, stack, best, walk);
   return walk.found;
 }
 

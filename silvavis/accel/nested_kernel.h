@@ -1,7 +1,7 @@
 // The traversal of the nested trees, compiled once for each instruction set (see nested.cpp, the only one to include it).
 //
-// The story of a ray: ground first, since it bounds all that follows; then, layer by layer, tile positions front to back, in
-// each the tile's sites, and for each plant whose hull the ray crosses the model's tree.
+// The story of a ray: front to back over the land, in each tile position the tile's sites, for each plant whose hull the ray
+// crosses the model's tree, and then the ground beneath. The other layers follow, each with its own tiles.
 #include "silvavis/accel/nested_ground.h"
 #include "silvavis/accel/nested_sites.h"
 
@@ -9,17 +9,41 @@
 HWY_BEFORE_NAMESPACE();
 namespace silvavis::accel::HWY_NAMESPACE {
 
+// A leaf of the land: the Wang tile that lies there, and the ground beneath it.
+template <bool any_hit>
+struct LandWalk {
+  const scene::Scene& scene;
+  LayerWalk<any_hit> plants;
+  bool has_plants;
+  bool found = false;
+
+  HWY_INLINE bool operator()(int column, int row, float near, float far, float low, float high) {
+    column += scene.land.first_column;
+    row += scene.land.first_row;
+    if (has_plants && column >= 0 && row >= 0 && column < plants.layer.columns && row < plants.layer.rows &&
+        plants(column, row, near, far, low, high))
+      return found = true;
+    const auto most = static_cast<float>(std::min(plants.best, static_cast<double>(far)));
+    if (near <= most && nearest_ground(scene, plants.flat, plants.ray, near, most, plants.best)) {
+      plants.hit.surface = Surface::ground;
+      found = true;
+    }
+    return any_hit && found;
+  }
+};
+
 template <bool any_hit>
 HWY_INLINE bool trace(const scene::Scene& scene, const Ray& ray, Hit& hit) {
+  static const scene::PlantLayer none;
   const FlatRay flat(ray);
   double best = ray.most;
-  if (nearest_ground(scene.ground, flat, ray, best)) {
-    hit.surface = Surface::ground;
-    if (any_hit) return true;
-  }
-  for (std::size_t k = 0; k < scene.layers.size(); ++k) {
+  const bool has_plants = !scene.layers.empty();
+  LandWalk<any_hit> land{scene, {scene, has_plants ? scene.layers[0] : none, 0, ray, flat, best, hit, false}, has_plants};
+  walk_whole_pyramid(scene.land.pyramid, flat, static_cast<float>(ray.least), best, land);
+  if (any_hit && land.found) return true;
+  for (std::size_t k = 1; k < scene.layers.size(); ++k) {
     LayerWalk<any_hit> walk{scene, scene.layers[k], static_cast<std::uint8_t>(k), ray, flat, best, hit, false};
-    walk_pyramid(scene.layers[k].pyramid, flat, static_cast<float>(ray.least), best, walk);
+    walk_whole_pyramid(scene.layers[k].pyramid, flat, static_cast<float>(ray.least), best, walk);
     if (any_hit && walk.found) return true;
   }
   if (hit.surface != Surface::none) hit.distance = best;

@@ -6,6 +6,8 @@
 #define SILVAVIS_NESTED_MODEL
 #endif
 
+#include <hwy/cache_control.h>
+
 #include "silvavis/accel/nested_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -101,7 +103,7 @@ HWY_INLINE bool hit_block(const scene::PlantModel& model, std::uint32_t block_in
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(hits));
     if (ts[lane] >= hit.t) continue;
     const std::uint32_t slot = block_index * scene::block_size + lane;
-    if (dets[lane] < 0 && !model.materials[model.slots[slot].material].two_sided) continue;
+    if (dets[lane] < 0 && !model.cutouts[block.materials[lane]].two_sided) continue;
     if (scene::is_hole(model, slot, us[lane], vs[lane])) continue;
     hit = {ts[lane], us[lane], vs[lane], slot};
     found = true;
@@ -144,9 +146,9 @@ HWY_INLINE bool hit_model(const scene::PlantModel& model, const V3& o, const V3&
     const auto& z_in = d.z < 0 ? node.most[2] : node.least[2];
     const auto& z_out = d.z < 0 ? node.least[2] : node.most[2];
     // Distance to a bound = byte * scale + shift.
-    const V8 scale_x = hn::Set(f8, node.step[0] * ix), shift_x = hn::Set(f8, (node.origin[0] - o.x) * ix);
-    const V8 scale_y = hn::Set(f8, node.step[1] * iy), shift_y = hn::Set(f8, (node.origin[1] - o.y) * iy);
-    const V8 scale_z = hn::Set(f8, node.step[2] * iz), shift_z = hn::Set(f8, (node.origin[2] - o.z) * iz);
+    const V8 scale_x = hn::Set(f8, node.step(0) * ix), shift_x = hn::Set(f8, (node.origin[0] - o.x) * ix);
+    const V8 scale_y = hn::Set(f8, node.step(1) * iy), shift_y = hn::Set(f8, (node.origin[1] - o.y) * iy);
+    const V8 scale_z = hn::Set(f8, node.step(2) * iz), shift_z = hn::Set(f8, (node.origin[2] - o.z) * iz);
     HWY_ALIGN float nears[16];
     std::uint32_t hits = 0;
     for (std::size_t k = 0; k < 16; k += hn::Lanes(f8)) {
@@ -171,6 +173,15 @@ HWY_INLINE bool hit_model(const scene::PlantModel& model, const V3& o, const V3&
       const std::uint32_t index =
           leaf ? node.first_block + static_cast<std::uint32_t>(std::popcount(node.leaves & below))
                : node.first_node + static_cast<std::uint32_t>(std::popcount(node.inner & below));
+      // All will be asked for soon; those behind the nearest come while it is walked.
+      if (leaf) {
+        const auto* block = reinterpret_cast<const std::uint8_t*>(&model.blocks[index]);
+        for (int line = 0; line < 4; ++line) hwy::Prefetch(block + line * 64);
+      } else {
+        const auto* next = reinterpret_cast<const std::uint8_t*>(&model.nodes[index]);
+        hwy::Prefetch(next);
+        hwy::Prefetch(next + 64);
+      }
       int at = size++;
       for (; at > bottom && stack[at - 1].near < nears[child]; --at) stack[at] = stack[at - 1];
       stack[at] = {nears[child], index, leaf};

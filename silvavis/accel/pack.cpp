@@ -246,7 +246,7 @@ class Packer {
     rtcReleaseBVH(bvh);
     to_.nodes.shrink_to_fit();
     to_.blocks.shrink_to_fit();
-    to_.slots.shrink_to_fit();
+    to_.normals.shrink_to_fit();
   }
 
   void fill(std::size_t index, const BuiltNode& built) {
@@ -256,14 +256,17 @@ class Packer {
     for (int a = 0; a < 3; ++a) {
       const auto axis = static_cast<std::size_t>(a);
       node.origin[axis] = box.least[a];
-      // One byte less than there are, so that rounding outward stays in range.
-      node.step[axis] = std::max((box.most[a] - box.least[a]) / 254.0f, 1e-7f);
+      // The least power of two whose 254 steps reach across; one byte is left for rounding outward.
+      int power = 0;
+      std::frexp(std::max((box.most[a] - box.least[a]) / 254.0f, 1e-9f), &power);
+      node.exponent[axis] = static_cast<std::uint8_t>(power + 127);
+      const float step = node.step(axis);
       for (std::uint32_t c = 0; c < built.count; ++c) {
         const auto decoded_bound = [&](int byte) {
-          return node.origin[axis] + node.step[axis] * static_cast<float>(byte);
+          return node.origin[axis] + step * static_cast<float>(byte);
         };
-        int low = static_cast<int>(std::floor((built.bounds[c].least[a] - node.origin[axis]) / node.step[axis]));
-        int high = static_cast<int>(std::ceil((built.bounds[c].most[a] - node.origin[axis]) / node.step[axis]));
+        int low = static_cast<int>(std::floor((built.bounds[c].least[a] - node.origin[axis]) / step));
+        int high = static_cast<int>(std::ceil((built.bounds[c].most[a] - node.origin[axis]) / step));
         while (low > 0 && decoded_bound(low) > built.bounds[c].least[a]) --low;
         while (high < 255 && decoded_bound(high) < built.bounds[c].most[a]) ++high;
         node.least[axis][c] = static_cast<std::uint8_t>(std::clamp(low, 0, 255));
@@ -292,7 +295,7 @@ class Packer {
   }
 
   void add_block(const BuiltLeaf& leaf) {
-    scene::TriangleBlock block;
+    scene::TriangleBlock block{};
     const auto& first = triangles_[leaf.triangles[0]].corners[0].at;
     for (std::size_t lane = 0; lane < scene::block_size; ++lane) {
       const bool there = lane < leaf.count;
@@ -302,22 +305,22 @@ class Packer {
               there ? triangles_[leaf.triangles[lane]].corners[corner].at[axis] : first[axis];
         }
       }
-      to_.slots.push_back(there ? slot_of(triangles_[leaf.triangles[lane]].from) : scene::Slot{});
+      to_.normals.emplace_back();
+      if (there) fill_attributes(block, lane, triangles_[leaf.triangles[lane]].from);
     }
     to_.blocks.push_back(block);
   }
 
-  scene::Slot slot_of(std::uint32_t triangle) const {
-    scene::Slot slot;
+  void fill_attributes(scene::TriangleBlock& block, std::size_t lane, std::uint32_t triangle) {
+    const auto stored = [](float at, float step) { return static_cast<std::uint16_t>(step > 0 ? std::lround(at / step) : 0); };
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t vertex = from_.triangles[triangle][c];
       const V2 uv = from_.uvs[vertex] - to_.uv_origin;
-      slot.uv[c] = {static_cast<std::uint16_t>(to_.uv_step.x > 0 ? std::lround(uv.x / to_.uv_step.x) : 0),
-                    static_cast<std::uint16_t>(to_.uv_step.y > 0 ? std::lround(uv.y / to_.uv_step.y) : 0)};
-      slot.normals[c] = scene::packed_normal(from_.normals[vertex]);
+      block.uv[c][0][lane] = stored(uv.x, to_.uv_step.x);
+      block.uv[c][1][lane] = stored(uv.y, to_.uv_step.y);
+      to_.normals.back()[c] = scene::packed_normal(from_.normals[vertex]);
     }
-    slot.material = from_.triangle_materials[triangle];
-    return slot;
+    block.materials[lane] = from_.triangle_materials[triangle];
   }
 
   template <typename Visit>
@@ -338,6 +341,8 @@ PlantModel pack(const assets::Model& model) {
   packed.name = model.name;
   packed.materials = model.materials;
   packed.textures = model.textures;
+  for (const assets::Material& material : model.materials)
+    packed.cutouts.push_back(scene::cutout_of(material, model.textures));
   Packer(model, packed).run();
   return packed;
 }

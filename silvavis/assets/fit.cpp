@@ -61,6 +61,15 @@ std::vector<V3d> spread_points(const Model& model) {
   return points.empty() ? holes : points;
 }
 
+double crown_radius(const Model& model, double axis_x, double axis_y) {
+  std::vector<double> distances;
+  for (const V3d& p : spread_points(model)) distances.push_back(distance(p.x - axis_x, p.y - axis_y));
+  if (distances.empty()) return 0;
+  const auto at = static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(distances.size() - 1));
+  std::nth_element(distances.begin(), distances.begin() + at, distances.end());
+  return distances[static_cast<std::size_t>(at)];
+}
+
 // Mean and reach of the triangles that reach into [from, to], by their vertices there.
 struct Slice {
   double x = 0, y = 0, area = 0;
@@ -130,11 +139,7 @@ Measures measure(const Model& model) {
     if (p.z <= top) m.foot_radius_m = std::max(m.foot_radius_m, from_axis);
   }
 
-  std::vector<double> distances;
-  for (const V3d& p : spread_points(model)) distances.push_back(distance(p.x - m.foot_x_m, p.y - m.foot_y_m));
-  const auto at = static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(distances.size() - 1));
-  std::nth_element(distances.begin(), distances.begin() + at, distances.end());
-  m.crown_radius_m = distances[static_cast<std::size_t>(at)];
+  m.crown_radius_m = crown_radius(model, m.foot_x_m, m.foot_y_m);
   return m;
 }
 
@@ -148,7 +153,7 @@ Model fitted(Model model, const Size& size, LoadReport* report) {
   if (!(m.height_m > 1e-9)) fail("it has no height");
   if (!(m.crown_radius_m > 1e-9)) fail("it has no width");
   const double up = size.height_m / m.height_m;
-  const double out = size.radius_m > 0 ? size.radius_m / m.crown_radius_m : up;
+  double out = size.radius_m > 0 ? size.radius_m / m.crown_radius_m : up;
   if (!std::isfinite(up) || !std::isfinite(out)) fail("its measures are no numbers");
   const double stretch = std::max(up / out, out / up);
   if (stretch > 1.5 && report != nullptr) {
@@ -158,9 +163,18 @@ Model fitted(Model model, const Size& size, LoadReport* report) {
                                " for its height than it was drawn; another model would suit the species better");
   }
 
-  for (V3& p : model.positions) {
-    p = V3(static_cast<float>((p.x - m.foot_x_m) * out), static_cast<float>((p.y - m.foot_y_m) * out),
-           static_cast<float>((p.z - m.foot_z_m) * up));
+  // The share of the surface that lies far out changes when a model is stretched, so the radius is found by steps.
+  const std::vector<V3> drawn = model.positions;
+  for (int step = 0; step < 4; ++step) {
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+      const V3& p = drawn[i];
+      model.positions[i] =
+          V3(static_cast<float>((p.x - m.foot_x_m) * out), static_cast<float>((p.y - m.foot_y_m) * out),
+             static_cast<float>((p.z - m.foot_z_m) * up));
+    }
+    const double reached = crown_radius(model, 0, 0);
+    if (size.radius_m == 0 || step == 3 || !(reached > 0) || std::abs(reached / size.radius_m - 1) < 1e-3) break;
+    out *= size.radius_m / reached;
   }
   for (V3& n : model.normals) {
     const V3d wide(n.x / out, n.y / out, n.z / up);
@@ -177,6 +191,7 @@ Model fitted(Model model, const Size& size, LoadReport* report) {
   if (kept == 0) fail("its triangles are too thin");
   model.triangles.resize(kept);
   model.triangle_materials.resize(kept);
+  face_normals(model);  // of leaf cards, whose normals are not their own
   return model;
 }
 

@@ -9,6 +9,8 @@
 #include <atomic>
 #include <cctype>
 #include <fstream>
+#include <map>
+#include <mutex>
 #include <string>
 
 #include "silvasim/base/error.h"
@@ -65,6 +67,19 @@ std::string first_bytes(const Picture& picture) {
   return head;
 }
 
+// The cache itself tells files apart by whole seconds.
+void forget_if_changed(const std::filesystem::path& file) {
+  static std::mutex mutex;
+  static std::map<std::string, std::filesystem::file_time_type> known;
+  std::error_code ignored;
+  const std::filesystem::file_time_type time = std::filesystem::last_write_time(file, ignored);
+  const std::lock_guard lock(mutex);
+  const auto [it, is_new] = known.try_emplace(file.string(), time);
+  if (is_new || it->second == time) return;
+  it->second = time;
+  cache().invalidate(OIIO::ustring(file.string()), true);
+}
+
 [[noreturn]] void fail(const std::string& name, const std::string& what) {
   throw base::Error("texture \"" + base::shortened(name, 120) + "\" " + what);
 }
@@ -97,7 +112,7 @@ PictureRows::PictureRows(const Picture& picture) {
     config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
   } else {
     source_->key = OIIO::ustring(picture.file.string());
-    cache().invalidate(source_->key, false);  // only if the file is another one by now
+    forget_if_changed(picture.file);
   }
   if (!cache().add_file(source_->key, reader, &config) || !cache().get_imagespec(source_->key, source_->spec)) {
     const std::string why = cache().geterror();

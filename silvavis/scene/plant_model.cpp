@@ -51,27 +51,30 @@ V3 unpacked_normal(const std::array<std::uint8_t, 2>& packed) {
   return V3(u, v, z).normalized();
 }
 
-bool is_hole(const PlantModel& model, std::uint32_t slot, float u, float v) {
-  const assets::Material& material = model.materials[model.slots[slot].material];
-  if (material.alpha_cutoff <= 0 || material.texture == assets::no_texture) return false;
-  const assets::Texture& texture = model.textures[static_cast<std::size_t>(material.texture)];
-  if (!texture.has_alpha) return false;
-  const V2 at = model.uv_of(slot, 0) * (1 - u - v) + model.uv_of(slot, 1) * u + model.uv_of(slot, 2) * v;
-  const float x = (at.x - std::floor(at.x)) * static_cast<float>(texture.width) - 0.5f;
-  const float y = (at.y - std::floor(at.y)) * static_cast<float>(texture.height) - 0.5f;
-  const float left = std::floor(x), top = std::floor(y);
-  const float s = x - left, t = y - top;
-  const int x0 = static_cast<int>(left), y0 = static_cast<int>(top);
+Cutout cutout_of(const assets::Material& material, const std::vector<assets::Texture>& textures) {
+  Cutout cutout;
+  cutout.two_sided = material.two_sided;
+  if (material.alpha_cutoff <= 0 || material.texture == assets::no_texture) return cutout;
+  const assets::Texture& texture = textures[static_cast<std::size_t>(material.texture)];
+  if (!texture.has_alpha) return cutout;
+  cutout.width = static_cast<std::uint32_t>(2 * texture.width);
+  cutout.height = static_cast<std::uint32_t>(2 * texture.height);
+  cutout.holes.assign((std::size_t{cutout.width} * cutout.height + 63) / 64, 0);
   const auto alpha = [&](int i, int j) {
-    const int column = i < 0 ? texture.width - 1 : i >= texture.width ? 0 : i;
-    const int row = j < 0 ? texture.height - 1 : j >= texture.height ? 0 : j;
-    const std::size_t pixel =
-        static_cast<std::size_t>(row) * static_cast<std::size_t>(texture.width) + static_cast<std::size_t>(column);
-    return static_cast<float>(texture.rgba[pixel * 4 + 3]);
+    const int column = (i + texture.width) % texture.width, row = (j + texture.height) % texture.height;
+    return static_cast<float>(texture.rgba[(static_cast<std::size_t>(row) * static_cast<std::size_t>(texture.width) + static_cast<std::size_t>(column)) * 4 + 3]);
   };
-  const float top_alpha = alpha(x0, y0) * (1 - s) + alpha(x0 + 1, y0) * s;
-  const float bottom_alpha = alpha(x0, y0 + 1) * (1 - s) + alpha(x0 + 1, y0 + 1) * s;
-  return top_alpha * (1 - t) + bottom_alpha * t < material.alpha_cutoff * 255.0f;
+  for (std::uint32_t y = 0; y < cutout.height; ++y) {
+    for (std::uint32_t x = 0; x < cutout.width; ++x) {
+      // Centres of the finer cells lie a quarter off the texels': bilinear weights 3/4 and 1/4.
+      const int i = static_cast<int>(x / 2), j = static_cast<int>(y / 2);
+      const int di = x % 2 == 0 ? -1 : 1, dj = y % 2 == 0 ? -1 : 1;
+      const float value = (9 * alpha(i, j) + 3 * alpha(i + di, j) + 3 * alpha(i, j + dj) + alpha(i + di, j + dj)) / 16;
+      const std::uint64_t bit = std::uint64_t{y} * cutout.width + x;
+      if (value < material.alpha_cutoff * 255.0f) cutout.holes[bit >> 6] |= std::uint64_t{1} << (bit & 63);
+    }
+  }
+  return cutout;
 }
 
 }  // namespace silvavis::scene

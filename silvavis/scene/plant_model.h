@@ -8,11 +8,13 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "silvasim/base/huge_vector.h"
 #include "silvavis/assets/model.h"
 #include "silvavis/base/vector.h"
 
@@ -22,20 +24,28 @@ inline constexpr int block_size = 8;  // triangles in a leaf
 inline constexpr int node_size = 16;  // children of a node
 inline constexpr int hull_size = 8;   // cylinders of a hull
 
-// Eight triangles, lane by lane. Empty lanes have three equal corners.
-struct TriangleBlock {
+// Eight triangles, lane by lane, with all that tells whether a ray meets them: four lines of a cache side by side. Empty lanes
+// have three equal corners.
+struct alignas(64) TriangleBlock {
   std::array<std::array<std::array<std::uint16_t, block_size>, 3>, 3> corners;  // [corner][axis][lane]
+  std::array<std::array<std::array<std::uint16_t, block_size>, 2>, 3> uv;       // [corner][axis][lane]: uv_origin + uv_step * uv
+  std::array<std::uint16_t, block_size> materials;
 };
+static_assert(sizeof(TriangleBlock) == 256);
 
-// Boxes of up to sixteen children: bound = origin + step * byte. Inner children lie one after another from
-// `first_node`, leaves from `first_block`, both in the order of their lanes.
-struct TreeNode {
+// Boxes of up to sixteen children: bound = origin + step * byte, each step a power of two. Inner children lie one after
+// another from `first_node`, leaves from `first_block`, both in the order of their lanes. Two lines of a cache.
+struct alignas(64) TreeNode {
   std::array<std::array<std::uint8_t, node_size>, 3> least{}, most{};  // [axis][child]
-  std::array<float, 3> origin{}, step{};
+  std::array<float, 3> origin{};
+  std::array<std::uint8_t, 3> exponent{};  // of the steps, as in a float: step = 2^(exponent - 127)
   std::uint32_t first_node = 0;
   std::uint32_t first_block = 0;
   std::uint16_t inner = 0, leaves = 0;  // bit sets of children: which are nodes, which blocks
+
+  float step(std::size_t axis) const { return std::bit_cast<float>(std::uint32_t{exponent[axis]} << 23); }
 };
+static_assert(sizeof(TreeNode) == 128);
 
 // What is the same for all positions of a turned model: stacked cylinders about the stem that hold every triangle. They
 // turn away most rays that would miss the model before its tree is touched.
@@ -44,10 +54,15 @@ struct Hull {
   std::array<float, hull_size> radii_m{};
 };
 
-struct Slot {
-  std::array<std::array<std::uint16_t, 2>, 3> uv{};      // of the corners: uv_origin + uv_step * uv
-  std::array<std::array<std::uint8_t, 2>, 3> normals{};  // of the corners, octahedral
-  std::uint16_t material = 0;
+// What only shading needs of a triangle: its corners' normals, octahedral.
+using SlotNormals = std::array<std::array<std::uint8_t, 2>, 3>;
+
+// Where a material is a hole, as bits: its texture, twice as fine, cut at the material's cutoff. One bit instead of four
+// texels a question keeps the answer in the nearest cache.
+struct Cutout {
+  std::uint32_t width = 0, height = 0;  // 0: no holes
+  std::vector<std::uint64_t> holes;     // row by row, width / 64 words each
+  bool two_sided = true;                // the material's
 };
 
 struct PlantModel {
@@ -56,14 +71,15 @@ struct PlantModel {
   float step_m = 0;
   V2 uv_origin{0, 0}, uv_step{0, 0};
   std::vector<TreeNode> nodes;  // the root first
-  std::vector<TriangleBlock> blocks;
-  std::vector<Slot> slots;  // block_size a block
+  silvasim::base::HugeVector<TriangleBlock> blocks;
+  std::vector<SlotNormals> normals;  // by slot: block_size a block
   Hull hull;
   float reach_m = 0;  // greatest horizontal distance of a vertex from the stem
   float foot_m = 0;   // the same within the lowest fiftieth: how far the stem's foot reaches out on a slope
   V3 least{0, 0, 0}, most{0, 0, 0};
   std::uint32_t triangles = 0;
   std::vector<assets::Material> materials;
+  std::vector<Cutout> cutouts;  // one a material
   std::vector<assets::Texture> textures;
 
   V3 position_of(std::uint32_t slot, int corner) const {
@@ -73,13 +89,16 @@ struct PlantModel {
             origin.z + step_m * static_cast<float>(c[2][lane])};
   }
   V2 uv_of(std::uint32_t slot, int corner) const {
-    const auto& at = slots[slot].uv[static_cast<std::size_t>(corner)];
-    return {uv_origin.x + uv_step.x * static_cast<float>(at[0]), uv_origin.y + uv_step.y * static_cast<float>(at[1])};
+    const auto& at = blocks[slot / block_size].uv[static_cast<std::size_t>(corner)];
+    const std::uint32_t lane = slot % block_size;
+    return {uv_origin.x + uv_step.x * static_cast<float>(at[0][lane]), uv_origin.y + uv_step.y * static_cast<float>(at[1][lane])};
   }
+  std::uint16_t material_of(std::uint32_t slot) const { return blocks[slot / block_size].materials[slot % block_size]; }
   std::size_t bytes() const {
     std::size_t sum =
-        nodes.size() * sizeof(TreeNode) + blocks.size() * sizeof(TriangleBlock) + slots.size() * sizeof(Slot);
+        nodes.size() * sizeof(TreeNode) + blocks.size() * sizeof(TriangleBlock) + normals.size() * sizeof(SlotNormals);
     for (const assets::Texture& texture : textures) sum += texture.rgba.size();
+    for (const Cutout& cutout : cutouts) sum += cutout.holes.size() * sizeof(std::uint64_t);
     return sum;
   }
 };
@@ -95,8 +114,24 @@ TrianglePoint meet_triangle(const PlantModel& model, std::uint32_t slot, const V
 std::array<std::uint8_t, 2> packed_normal(const V3& normal);
 V3 unpacked_normal(const std::array<std::uint8_t, 2>& packed);
 
-// Whether the surface has a hole at a hit with these barycentric weights of corners 1 and 2: the material's texture is
-// more transparent there than its cutoff. The one rule that all backends share.
-bool is_hole(const PlantModel& model, std::uint32_t slot, float u, float v);
+Cutout cutout_of(const assets::Material& material, const std::vector<assets::Texture>& textures);
+
+// Whether the surface has a hole at a hit with these weights of corners 1 and 2. The one rule that all backends share.
+inline bool is_hole(const PlantModel& model, std::uint32_t slot, float u, float v) {
+  const TriangleBlock& block = model.blocks[slot / block_size];
+  const std::uint32_t lane = slot % block_size;
+  const Cutout& cutout = model.cutouts[block.materials[lane]];
+  if (cutout.width == 0) return false;
+  const auto between = [&](std::size_t axis) {
+    return static_cast<float>(block.uv[0][axis][lane]) * (1 - u - v) + static_cast<float>(block.uv[1][axis][lane]) * u +
+           static_cast<float>(block.uv[2][axis][lane]) * v;
+  };
+  const float x = model.uv_origin.x + model.uv_step.x * between(0), y = model.uv_origin.y + model.uv_step.y * between(1);
+  // Textures repeat. In whole numbers from here on: 2^20 parts of a texture.
+  const auto column = (static_cast<std::uint64_t>(static_cast<std::int64_t>(x * 0x1p20f) & 0xFFFFF) * cutout.width) >> 20;
+  const auto row = (static_cast<std::uint64_t>(static_cast<std::int64_t>(y * 0x1p20f) & 0xFFFFF) * cutout.height) >> 20;
+  const std::uint64_t bit = row * cutout.width + column;
+  return cutout.holes[bit >> 6] >> (bit & 63) & 1;
+}
 
 }  // namespace silvavis::scene

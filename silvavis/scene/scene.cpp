@@ -135,6 +135,72 @@ void place_layer(Scene& scene, PlantLayer& layer, const ecosystem::Layer& from) 
   layer.pyramid.margin_m = overhang(layer) + 0.01f;
 }
 
+HeightRange plant_range(const Pyramid& pyramid, int column, int row) {
+  if (column < 0 || row < 0 || column >= pyramid.columns || row >= pyramid.rows) return {};
+  const Pyramid::Level& level = pyramid.levels.front();
+  const PyramidNode& node = level.nodes[static_cast<std::size_t>(row / 4) * static_cast<std::size_t>(level.columns) +
+                                        static_cast<std::size_t>(column / 4)];
+  const auto child = static_cast<std::size_t>(row % 4 * 4 + column % 4);
+  if (node.least[child] > node.most[child]) return {};
+  return {pyramid.origin_m + pyramid.step_m * static_cast<float>(node.least[child]),
+          pyramid.origin_m + pyramid.step_m * static_cast<float>(node.most[child])};
+}
+
+// Of all vertices in the box and next to it.
+HeightRange ground_range(const Ground& ground, double west, double south, double side_x, double side_y) {
+  const auto index = [](double at, int count, bool up) {
+    return std::clamp(static_cast<int>(up ? std::ceil(at) : std::floor(at)), 0, count - 1);
+  };
+  const int i0 = index((west - ground.west) / ground.cell_x_m, ground.columns, false);
+  const int i1 = index((west + side_x - ground.west) / ground.cell_x_m, ground.columns, true);
+  const int j0 = index((south - ground.south) / ground.cell_y_m, ground.rows, false);
+  const int j1 = index((south + side_y - ground.south) / ground.cell_y_m, ground.rows, true);
+  HeightRange range{ground.at(i0, j0), ground.at(i0, j0)};
+  for (int j = j0; j <= j1; ++j) {
+    for (int i = i0; i <= i1; ++i) {
+      range.least_m = std::min(range.least_m, ground.at(i, j));
+      range.most_m = std::max(range.most_m, ground.at(i, j));
+    }
+  }
+  return range;
+}
+
+void make_land(Scene& scene) {
+  const Ground& ground = scene.ground;
+  const PlantLayer* const layer = scene.layers.empty() ? nullptr : &scene.layers.front();
+  const double side = layer ? layer->tile_side_m : 8 * std::max(ground.cell_x_m, ground.cell_y_m);
+  const double west = layer ? layer->west : ground.west, south = layer ? layer->south : ground.south;
+  LandGrid& land = scene.land;
+  land.first_column = std::min(0, static_cast<int>(std::floor((ground.west - west) / side)));
+  land.first_row = std::min(0, static_cast<int>(std::floor((ground.south - south) / side)));
+  const int columns = std::max(layer ? layer->columns : 0, static_cast<int>(std::ceil((ground.east() - west) / side))) - land.first_column;
+  const int rows = std::max(layer ? layer->rows : 0, static_cast<int>(std::ceil((ground.north() - south) / side))) - land.first_row;
+  const Pyramid& below = ground.pyramid;
+  HeightRange whole{below.origin_m, below.origin_m + 65535 * below.step_m};
+  if (layer) {
+    whole.least_m = std::min(whole.least_m, layer->pyramid.origin_m);
+    whole.most_m = std::max(whole.most_m, layer->pyramid.origin_m + 65535 * layer->pyramid.step_m);
+  }
+  land.pyramid = make_pyramid(columns, rows, whole, [&](int i, int j) {
+    const int column = i + land.first_column, row = j + land.first_row;
+    const HeightRange bare = ground_range(ground, west + column * side, south + row * side, side, side);
+    const HeightRange grown = layer ? plant_range(layer->pyramid, column, row) : HeightRange{};
+    if (grown.least_m > grown.most_m) return bare;
+    return HeightRange{std::min(bare.least_m, grown.least_m), std::max(bare.most_m, grown.most_m)};
+  });
+  land.pyramid.west = static_cast<float>(west + land.first_column * side);
+  land.pyramid.south = static_cast<float>(south + land.first_row * side);
+  land.pyramid.cell_x_m = land.pyramid.cell_y_m = static_cast<float>(side);
+  land.pyramid.margin_m = layer ? layer->pyramid.margin_m : 0.0f;
+  const double wide = side + 2 * static_cast<double>(land.pyramid.margin_m) + 1;
+  double node = 4 * std::min(ground.cell_x_m, ground.cell_y_m);
+  land.ground_level = 0;
+  while (node < wide && land.ground_level + 1 < static_cast<int>(below.levels.size())) {
+    node *= 4;
+    ++land.ground_level;
+  }
+}
+
 }  // namespace
 
 const std::array<Turn, 256>& turns() {
@@ -150,7 +216,7 @@ const std::array<Turn, 256>& turns() {
 }
 
 std::size_t Scene::plant_bytes() const {
-  std::size_t sum = 0;
+  std::size_t sum = land.pyramid.bytes();
   for (const PlantLayer& layer : layers) {
     sum += layer.plant_species.size() + 2 * layer.plant_heights.size() + layer.pyramid.bytes();
     sum += layer.tiles.size() * (2 + 8 + 4 + 4);
@@ -199,6 +265,7 @@ Scene make_scene(ecosystem::Ecosystem from, const std::vector<std::vector<Specie
     source = {};
     scene.layers.push_back(std::move(layer));
   }
+  make_land(scene);
   return scene;
 }
 

@@ -76,11 +76,20 @@ struct PlantLayer {
   }
 };
 
+// The first layer's tile positions together with the ground beneath and around them: the top of the hierarchy. Its leaf is the
+// paper's: a patch of ground and a Wang tile.
+struct LandGrid {
+  int first_column = 0, first_row = 0;  // tile position of the pyramid's item (0, 0); may lie outside the tiling
+  int ground_level = 0;                 // of the ground's pyramid: a node there is at least as wide as a tile
+  Pyramid pyramid;
+};
+
 struct Scene {
   silvasim::base::Point origin;  // scene point at world (0, 0)
   std::string crs_wkt;
   silvasim::base::Box extent;  // world space
   Ground ground;
+  LandGrid land;
   std::vector<PlantLayer> layers;
   std::vector<std::shared_ptr<const PlantModel>> models;
   std::uint64_t plants = 0;  // that are drawn

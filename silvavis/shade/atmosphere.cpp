@@ -141,7 +141,7 @@ Atmosphere::Atmosphere(double visibility_km) : sun_(extraterrestrial) {
         static_cast<float>(static_cast<double>(ozone_cross_section[i]) * 1e-26 * ozone_molecules_m2 / ozone_layer_m);
   }
   // Heights by their root; directions by the distance to the top, which resolves the horizon (Bruneton and Neyret 2008,
-  // section 4 as revised in 2017).
+  // in the form of 2017).
   to_top_.resize(rows_ * columns_);
   constexpr double top = ground_radius_m + top_height_m;
   for (std::size_t row = 0; row < rows_; ++row) {

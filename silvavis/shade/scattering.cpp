@@ -70,7 +70,7 @@ struct Sphere {
   }
 };
 
-// Equations 5 to 9 of Hillaire 2020 for one point: twice scattered light, over 1 less the share that is scattered on.
+// Section 5.5 of Hillaire 2020 for one point: twice scattered light, over 1 less the share that is scattered on.
 Spectrum multiple_at(const Atmosphere& air, double height_m, double sun_sine, const Spectrum& albedo) {
   static const Sphere sphere;
   constexpr int steps = 12;

@@ -58,11 +58,11 @@ SurfacePoint surface_at(const scene::Scene& scene, const Land& land, const accel
   if (hit.surface == accel::Surface::ground) return ground_point(scene, land, ray, point);
 
   const scene::PlantModel& model = *scene.models[hit.model];
-  const scene::Slot& slot = model.slots[hit.slot];
-  const assets::Material& material = model.materials[slot.material];
+  const scene::SlotNormals& normals = model.normals[hit.slot];
+  const assets::Material& material = model.materials[model.material_of(hit.slot)];
   const float w = 1 - hit.u - hit.v;
-  const V3 local = scene::unpacked_normal(slot.normals[0]) * w + scene::unpacked_normal(slot.normals[1]) * hit.u +
-                   scene::unpacked_normal(slot.normals[2]) * hit.v;
+  const V3 local = scene::unpacked_normal(normals[0]) * w + scene::unpacked_normal(normals[1]) * hit.u +
+                   scene::unpacked_normal(normals[2]) * hit.v;
   const V3 a = model.position_of(hit.slot, 0);
   const V3 plane = (model.position_of(hit.slot, 1) - a).cross(model.position_of(hit.slot, 2) - a);
   const scene::Instance plant =

@@ -59,7 +59,7 @@ std::size_t add_flowers(Model& model, const Skeleton& skeleton, const Form& form
   const auto count = std::min<std::size_t>(static_cast<std::size_t>(form.flowers), twigs.size());
   for (std::size_t i = 0; i < count; ++i) {
     const Spot tip = spot_at(skeleton, *twigs[i * twigs.size() / count], 1);
-    const V3 normal = unit(V3(0, 0, 1) + tip.direction * 0.5f + draws.direction() * 0.3f);
+    const V3 normal = unit(V3(0, 0, 0.7f) + tip.direction * 0.5f + draws.direction() * 0.7f);
     const V3 u = beside(tip.direction + draws.direction() * 0.1f, normal), v = normal.cross(u);
     const float half = 0.5f * form.flower_size_m * draws.between(0.75f, 1.15f);
     const auto base = static_cast<std::uint32_t>(model.positions.size());

@@ -5,7 +5,7 @@
 // Colours are linear reflectances, of the upper side in summer.
 //
 // Presets: one explicit table (forms.cpp) of genera and species; figures are rounded from general knowledge of the genera
-// and tuned by eye, except leaf area index (Jonckheere et al. 2004 and Asner et al. 2003 give the ranges).
+// and tuned by eye. Leaf area indices are those of single crowns (docs/plants.md).
 #pragma once
 
 #include <array>

@@ -309,7 +309,7 @@ Form tulip_tree() {
 Form birch() {
   Form f = broadleaf();
   f.name = "birch";
-  f.few_cards_area = 0.74f;
+  f.few_cards_area = 0.62f;
   f.crown_base = 0.28f;
   f.outline = {0.6f, 1.0f, 0.97f, 0.8f, 0.5f, 0.06f};
   f.ragged = 0.2f;
@@ -349,7 +349,7 @@ Form birch() {
   f.leaf = Leaf::small;
   f.leaf_length_m = 0.05f;
   f.leaf_width_share = 0.8f;
-  f.leaf_area_index = 3.6f;
+  f.leaf_area_index = 4.4f;
   f.spray_hang = 0.45f;
   f.tumble = 0.8f;
   f.leaf_colour = {0.081f, 0.156f, 0.051f};
@@ -366,7 +366,7 @@ Form river_birch() {
   f.leader = 0.5f;
   f.branches[2].rise = -0.6f;
   f.branches[2].tip_rise = -0.8f;
-  f.leaf_area_index = 4.9f;
+  f.leaf_area_index = 5.2f;
   f.bark = Bark::plated;
   f.bark_colour = f.bark_upper_colour = {0.34f, 0.25f, 0.19f};
   return f;

@@ -80,13 +80,13 @@ Form fir() {
   f.branches[0].rise = 0;
   f.branches[0].tip_rise = 0.08f;
   f.branches[0].crook = 0.08f;
-  f.branches[1].planar = 0.8f;
+  f.branches[1].planar = 0.65f;
   f.branches[1].rise = 0;
   f.branches[1].length_low = 0.5f;
   f.leaf = Leaf::comb;
   f.leaf_length_m = 0.024f;
-  f.leaf_area_index = 9;
-  f.tumble = 0.28f;
+  f.leaf_area_index = 9.5f;
+  f.tumble = 0.38f;
   f.leaf_colour = {0.036f, 0.066f, 0.030f};
   f.bark = Bark::smooth;
   f.bark_colour = f.bark_upper_colour = {0.22f, 0.215f, 0.20f};
@@ -263,7 +263,7 @@ Form pine() {
                    .tip_rise = 0.35f,
                    .crook = 0.6f,
                    .thick = 0.4f};
-  f.branches[1] = {.count = 14,
+  f.branches[1] = {.count = 17,
                    .bare_share = 0.4f,
                    .angle_low_deg = 55,
                    .angle_high_deg = 40,
@@ -273,7 +273,7 @@ Form pine() {
                    .rise = 0.4f,
                    .tip_rise = 0.4f,
                    .crook = 0.5f};
-  f.branches[2] = {.count = 8,
+  f.branches[2] = {.count = 9,
                    .bare_share = 0.3f,
                    .angle_low_deg = 50,
                    .angle_high_deg = 35,
@@ -284,8 +284,8 @@ Form pine() {
                    .tip_rise = 0.4f,
                    .crook = 0.4f};
   f.orders = 3;
-  f.leafed_share = 0.5f;
-  f.inner_leaves = 0.12f;
+  f.leafed_share = 0.65f;
+  f.inner_leaves = 0.2f;
   f.leaf = Leaf::tuft;
   f.leaf_length_m = 0.06f;
   f.leaf_area_index = 4.2f;
@@ -328,7 +328,7 @@ Form tall_pine() {
 Form whitebark_pine() {
   Form f = pine();
   f.name = "whitebark pine";
-  f.few_cards_area = 0.86f;
+  f.few_cards_area = 0.82f;
   f.crown_base = 0.16f;
   f.outline = {0.5f, 0.85f, 1.0f, 0.95f, 0.75f, 0.3f};
   f.leader = 0.35f;
@@ -388,6 +388,8 @@ Form larch() {
 Form yew() {
   Form f = juniper();
   f.name = "yew";
+  f.branches[1].length_low = 0.5f;
+  f.branches[1].count = 36;
   f.few_cards_area = 0.95f;
   f.outline = {0.8f, 1.0f, 1.0f, 0.85f, 0.6f, 0.15f};
   f.leader = 0.4f;

@@ -67,14 +67,15 @@ Form hazel() {
 Form hawthorn() {
   Form f = shrub();
   f.name = "hawthorn";
-  f.few_cards_area = 0.9f;
+  f.orders = 3;
+  f.few_cards_area = 0.95f;
   f.stems = 3;
   f.stem_lean_deg = 16;
   f.stem_radius_share = 0.011f;
   f.stem_crook = 0.5f;
   f.crown_base = 0.16f;
   f.outline = {0.6f, 0.95f, 1.0f, 0.9f, 0.7f, 0.25f};
-  f.branches[0].count = 24;
+  f.branches[0].count = 20;
   f.branches[0].angle_low_deg = 70;
   f.branches[0].crook = 0.8f;
   f.branches[1].crook = 0.7f;

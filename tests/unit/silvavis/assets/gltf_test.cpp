@@ -267,8 +267,8 @@ TEST(Gltf, DeepAndWideJsonIsRefusedBeforeItIsParsed) {
 TEST(Gltf, ManyPartsOfOneColumnCostOnlyWhatTheyUse) {
   MadeGlb made;
   std::vector<float> many(300'000, 0.0f);
-  for (std::size_t i = 0; i < many.size(); ++i)
-    many[i] = static_cast<float>(i % 97) * 0.01f + static_cast<float>(i % 7);
+  many[3 * 50'001] = 1;
+  many[3 * 99'998 + 1] = 1;
   const int p = made.positions(many);
   const int indices = made.accessor(made.view(std::vector<std::uint32_t>{1, 50'001, 99'998}), 5125, "SCALAR", 3);
   nlohmann::json primitives = nlohmann::json::array();

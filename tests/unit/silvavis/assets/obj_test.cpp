@@ -95,26 +95,28 @@ TEST(Obj, RandomStarsKeepTheirArea) {
 }
 
 TEST(Obj, NormalsAreMadeSmoothOrFlat) {
-  // A roof of two slopes that share the ridge 3-4.
-  const std::string roof = "v 0 0 0\nv 0 0 2\nv 1 1 0\nv 1 1 2\nv 2 0 0\nv 2 0 2\n";
-  const Model smooth = read_text(roof + "f 1 2 4 3\nf 3 4 6 5\n", {.up = Up::z}).model;
-  EXPECT_EQ(smooth.positions.size(), 6u);
-  for (std::size_t i = 0; i < 6; ++i) {
-    if (smooth.positions[i].x == 1) {
-      EXPECT_NEAR(std::abs(smooth.normals[i].y), 1, 1e-6);
+  // A pyramid: smooth, its apex looks up.
+  const std::string base = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv 0 0 1\n";
+  const auto expect_apex_up = [](const Model& model, int copies) {
+    for (std::size_t i = 0; i < model.positions.size(); ++i) {
+      if (model.positions[i].z < 1) continue;
+      EXPECT_NEAR(model.normals[i].z, 1, 1e-6);
+      --copies;
     }
-  }
-  const Model flat = read_text(roof + "s off\nf 1 2 4 3\nf 3 4 6 5\n", {.up = Up::z}).model;
-  EXPECT_EQ(flat.positions.size(), 8u);
-  for (const V3& n : flat.normals) EXPECT_NEAR(std::abs(n.y), std::sqrt(0.5), 1e-6);
+    EXPECT_EQ(copies, 0);
+  };
+  const LoadOptions as_it_is{.up = Up::z};
+  const Model smooth = read_text(base + "f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n", as_it_is).model;
+  EXPECT_EQ(smooth.positions.size(), 5u);
+  expect_apex_up(smooth, 1);
+  const Model flat = read_text(base + "s off\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n", as_it_is).model;
+  EXPECT_EQ(flat.positions.size(), 12u);
+  for (const V3& n : flat.normals) EXPECT_NEAR(n.z, std::sqrt(0.5), 1e-6);
   // A seam in the texture does not break what is smooth.
-  const Model seam = read_text(roof + "vt 0 0\nvt 1 1\nf 1/1 2/1 4/1 3/1\nf 3/2 4/2 6/2 5/2\n", {.up = Up::z}).model;
+  const Model seam =
+      read_text(base + "vt 0 0\nvt 1 1\nf 1/1 2/1 5/1\nf 2/1 3/1 5/1\nf 3/2 4/2 5/2\nf 4/2 1/2 5/2\n", as_it_is).model;
   EXPECT_EQ(seam.positions.size(), 8u);
-  for (std::size_t i = 0; i < 8; ++i) {
-    if (seam.positions[i].x == 1) {
-      EXPECT_NEAR(std::abs(seam.normals[i].y), 1, 1e-6);
-    }
-  }
+  expect_apex_up(seam, 2);
 }
 
 TEST(Obj, LeafCardsWithTheCrownsNormalsAreTurnedToThem) {
