@@ -31,6 +31,7 @@ if(SILVA_VIS)
   find_package(assimp REQUIRED)
   find_library(NOVA_LIBRARY nova REQUIRED)
   find_package(SDL2 REQUIRED)
+  find_package(meshoptimizer REQUIRED)
 endif()
 
 if(SILVA_TESTS)

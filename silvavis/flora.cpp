@@ -13,6 +13,8 @@
 #include "silvavis/assets/fit.h"
 #include "silvavis/assets/grown/grow.h"
 #include "silvavis/assets/load.h"
+#include "silvavis/level_light.h"
+#include "silvavis/levels/thin.h"
 
 namespace silvavis {
 
@@ -46,6 +48,25 @@ assets::Model model_for(const Task& task, const ecosystem::Species& species, con
                              {triangles_for(options, height)});
 }
 
+// The model and its simpler levels, each an eighth of the one before, as long as there is something to simplify.
+std::shared_ptr<const scene::PlantModel> packed_with_levels(const assets::Model& model, bool levels) {
+  auto full = std::make_shared<scene::PlantModel>(accel::pack(model));
+  full->leaf_m = levels::leaf_size(model);
+  if (!levels) return full;
+  const double brightness = lit_brightness(full);
+  std::vector<std::shared_ptr<const scene::PlantModel>> coarser;
+  for (double share = 1.0 / 8; static_cast<double>(model.triangles.size()) * share > 60; share /= 8) {
+    const levels::Thinned simpler = levels::thinned(model, share);
+    auto level = std::make_shared<scene::PlantModel>(accel::pack(simpler.model, full->looks));
+    level->leaf_m = full->leaf_m * std::max(simpler.enlarged, 1.5f);
+    const double own = lit_brightness(level);
+    if (own > 0) level->tint = static_cast<float>(std::clamp(brightness / own, 0.5, 2.0));
+    coarser.push_back(std::move(level));
+  }
+  full->coarser = std::move(coarser);
+  return full;
+}
+
 }  // namespace
 
 Flora models_of(const ecosystem::Ecosystem& from, const FloraOptions& options,
@@ -62,6 +83,7 @@ Flora models_of(const ecosystem::Ecosystem& from, const FloraOptions& options,
   for (std::size_t k = 0; k < from.layers.size(); ++k) {
     const ecosystem::Layer& layer = from.layers[k];
     flora.models.emplace_back(layer.species.size());
+    flora.sources.emplace_back(layer.species.size());
     if (!options.layers.empty() &&
         std::find(options.layers.begin(), options.layers.end(), layer.name) == options.layers.end())
       continue;
@@ -84,6 +106,7 @@ Flora models_of(const ecosystem::Ecosystem& from, const FloraOptions& options,
               "\" is missing; a grown plant stands in for it (--models FOLDER says where models lie)");
         }
       }
+      flora.sources[k][s] = task.file ? task.file->string() : "grown";
       const int variants = task.file ? 1 : std::max(1, options.variants);
       flora.models[k][s].resize(static_cast<std::size_t>(variants));
       for (int v = 0; v < variants; ++v) {
@@ -103,7 +126,7 @@ Flora models_of(const ecosystem::Ecosystem& from, const FloraOptions& options,
     const Task& task = tasks[i];
     const assets::Model model = model_for(task, from.layers[task.layer].species[task.species], options, warnings[i]);
     flora.models[task.layer][task.species][static_cast<std::size_t>(task.variant)] =
-        std::make_shared<const scene::PlantModel>(accel::pack(model));
+        packed_with_levels(model, options.levels);
     silvasim::base::report(progress, "models", static_cast<double>(++done) / static_cast<double>(tasks.size()));
   });
   for (const auto& of_task : warnings) flora.warnings.insert(flora.warnings.end(), of_task.begin(), of_task.end());

@@ -24,11 +24,13 @@ struct FloraOptions {
   std::vector<std::string> layers;               // only these; empty: all
   int triangles = 40000;                         // of a grown tree; smaller plants have fewer
   int variants = 2;                              // grown models a species
+  bool levels = true;                            // make simpler levels too
   std::uint64_t seed = 1;
 };
 
 struct Flora {
   std::vector<std::vector<scene::SpeciesModelSet>> models;  // by layer, by species
+  std::vector<std::vector<std::string>> sources;            // the same: the file, "grown", or "" for what is not drawn
   std::vector<std::string> warnings;
 };
 

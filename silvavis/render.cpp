@@ -146,8 +146,12 @@ class Block {
         shade::ray_through(lens_, pixel.x + 0.5 + static_cast<double>(dx), pixel.y + 0.5 + static_cast<double>(dy));
     sample.ray.origin = ray.origin;
     sample.ray.direction = ray.direction;
+    if (options_.lod) sample.ray.spread = static_cast<float>(lens_.footprint_rad);
     return sample;
   }
+
+  // What leaves a surface is as wide as the ray that came: both then meet the same level.
+  float width_at(const Sample& sample) const { return sample.ray.spread * static_cast<float>(sample.hit.distance); }
 
   // Where a shadow ray may begin: off the surface by what rounding needs.
   static double lift(const accel::Hit& hit) { return 2e-3 + 1e-6 * hit.distance; }
@@ -167,6 +171,8 @@ class Block {
       accel::Ray ray;
       ray.origin = samples_[i].point.at + V3d(0, 0, 0.01);
       ray.direction = out.normalized();
+      ray.width_m = width_at(samples_[i]);
+      ray.spread = samples_[i].ray.spread;
       rays_.push_back(ray);
       askers_.push_back(i);
     }
@@ -201,6 +207,7 @@ class Block {
       ray.origin = sample.point.at +
                    V3d(sample.point.plane) * (sample.point.plane.dot(sun) > 0 ? lift(sample.hit) : -lift(sample.hit));
       ray.direction = sun;
+      ray.width_m = width_at(sample);
       rays_.push_back(ray);
       askers_.push_back(i);
     }
@@ -248,6 +255,7 @@ class Block {
                                         std::min(v, 0.999999f));
         const double off = sample.point.plane.dot(ray.direction) > 0 ? lift(sample.hit) : -lift(sample.hit);
         ray.origin = sample.point.at + V3d(sample.point.plane) * off;
+        ray.width_m = width_at(sample);
         rays_.push_back(ray);
         askers_.push_back(i);
         shares_.push_back((through ? sample.point.transmittance / std::max(1 - share, 1e-6f)

@@ -57,7 +57,7 @@ class FlushDenormals {
 
 // Whether a hit does not count: a hole, or the back of a leaf that has none.
 bool is_nothing(const scene::PlantModel& model, unsigned int slot, float u, float v, bool from_behind) {
-  return (from_behind && !model.cutouts[model.material_of(slot)].two_sided) || scene::is_hole(model, slot, u, v);
+  return (from_behind && !model.looks->cutouts[model.material_of(slot)].two_sided) || scene::is_hole(model, slot, u, v);
 }
 
 bool from_behind(const RTCFilterFunctionNArguments& a, unsigned int i) {
@@ -259,7 +259,7 @@ class Flatland final : public Tracer {
     for (std::size_t i = 0; i < vertices.size(); ++i) std::copy_n(&vertices[i].x, 3, buffer + i * 3);
     rtcSetGeometryUserData(geometry, const_cast<scene::PlantModel*>(&model));
     const bool holes =
-        std::any_of(model.cutouts.begin(), model.cutouts.end(),
+        std::any_of(model.looks->cutouts.begin(), model.looks->cutouts.end(),
                     [](const scene::Cutout& cutout) { return cutout.width > 0 || !cutout.two_sided; });
     if (holes) {
       rtcSetGeometryIntersectFilterFunction(geometry, exact_ ? skip_holes_exactly : skip_holes);

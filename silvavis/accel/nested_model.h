@@ -103,7 +103,7 @@ HWY_INLINE bool hit_block(const scene::PlantModel& model, std::uint32_t block_in
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(hits));
     if (ts[lane] >= hit.t) continue;
     const std::uint32_t slot = block_index * scene::block_size + lane;
-    if (dets[lane] < 0 && !model.cutouts[block.materials[lane]].two_sided) continue;
+    if (dets[lane] < 0 && !model.looks->cutouts[block.materials[lane]].two_sided) continue;
     if (scene::is_hole(model, slot, us[lane], vs[lane])) continue;
     hit = {ts[lane], us[lane], vs[lane], slot};
     found = true;

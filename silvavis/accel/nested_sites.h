@@ -166,7 +166,12 @@ struct LayerWalk {
   HWY_INLINE void meet_plant(int column, int row, std::uint32_t slot, std::uint8_t species) {
     const scene::Instance plant = scene::instance_at(scene, layer, column, row, slot, species);
     const scene::LocalRay local = scene::local_ray(plant, ray.origin, ray.direction);
-    const scene::PlantModel& model = *scene.models[plant.model];
+    std::uint8_t level = 0;
+    if (ray.width_m > 0 || ray.spread > 0) {
+      const float width = ray.width_m + ray.spread * static_cast<float>(std::max(local.start, 0.0));
+      level = scene::level_for(*scene.models[plant.model], plant, width);
+    }
+    const scene::PlantModel& model = scene::model_at(scene, plant.model, level);
     const double size = 1.0 / static_cast<double>(plant.scale);
     ModelHit model_hit;
     model_hit.t = static_cast<float>(std::min((best - local.start) * size, 1e30));
@@ -183,6 +188,7 @@ struct LayerWalk {
     hit.row = row;
     hit.site_slot = slot;
     hit.model = plant.model;
+    hit.level = level;
     hit.slot = model_hit.slot;
     hit.u = model_hit.u;
     hit.v = model_hit.v;

@@ -336,13 +336,10 @@ class Packer {
 
 }  // namespace
 
-PlantModel pack(const assets::Model& model) {
+PlantModel pack(const assets::Model& model, std::shared_ptr<const scene::Looks> looks) {
   PlantModel packed;
   packed.name = model.name;
-  packed.materials = model.materials;
-  packed.textures = model.textures;
-  for (const assets::Material& material : model.materials)
-    packed.cutouts.push_back(scene::cutout_of(material, model.textures));
+  packed.looks = looks ? std::move(looks) : scene::looks_of(model);
   Packer(model, packed).run();
   return packed;
 }

@@ -20,6 +20,10 @@ struct Ray {
   V3 direction{0, 0, 1};  // unit length
   double least = 0;       // hits nearer than this do not count
   double most = std::numeric_limits<double>::infinity();
+
+  // How wide the ray is, at its origin and what it gains a metre: plants whose leaves are smaller than that are met in a
+  // simpler level. Both zero: always the full models.
+  float width_m = 0, spread = 0;
 };
 
 enum class Surface : std::uint8_t { none, ground, plant };
@@ -32,6 +36,7 @@ struct Hit {
   std::int32_t column = 0, row = 0;  // tile position, row 0 the southernmost
   std::uint32_t site_slot = 0;       // in TileSites
   std::uint32_t model = 0;           // into Scene::models
+  std::uint8_t level = 0;            // 0: the model itself, k: its coarser[k - 1]
   std::uint32_t slot = 0;            // the model's triangle
   float u = 0, v = 0;                // weights of its corners 1 and 2
 };

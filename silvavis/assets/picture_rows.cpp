@@ -120,14 +120,22 @@ PictureRows::PictureRows(const Picture& picture) {
     fail(picture.name, "cannot be read: " + base::shortened(why.substr(0, why.find('\n')), 120));
   }
   const OIIO::ImageSpec& spec = source_->spec;
+  const long long pixels = static_cast<long long>(spec.width) * spec.height;
   const bool fits = spec.width > 0 && spec.height > 0 && spec.depth <= 1 && spec.nchannels > 0 &&
                     spec.width <= most_picture_side_px && spec.height <= most_picture_side_px &&
-                    static_cast<long long>(spec.width) * spec.height <= most_picture_px;
-  if (!fits) {
+                    pixels <= most_picture_px;
+  // No packing makes more of a byte; a file that claims more is cut off, or made to waste time.
+  constexpr long long most_pixels_a_byte = 8192;
+  std::error_code ignored;
+  const auto bytes = static_cast<long long>(picture.file.empty() ? picture.bytes.size()
+                                                                 : std::filesystem::file_size(picture.file, ignored));
+  if (!fits || pixels > most_pixels_a_byte * bytes) {
     if (source_->embedded) cache().invalidate(source_->key, true);
     fail(picture.name, "claims " + std::to_string(spec.width) + " x " + std::to_string(spec.height) +
-                           " pixels; at most " + std::to_string(most_picture_side_px) + " a side and " +
-                           std::to_string(most_picture_px >> 20) + " million in all are read");
+                           " pixels, which " +
+                           (fits ? "its " + std::to_string(bytes) + " bytes cannot hold"
+                                 : "is too large; at most " + std::to_string(most_picture_side_px) + " a side and " +
+                                       std::to_string(most_picture_px >> 20) + " million in all are read"));
   }
   width_ = spec.width;
   height_ = spec.height;

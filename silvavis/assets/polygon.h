@@ -21,7 +21,7 @@ class Triangulator {
   bool gave_up() const { return work_left_ == 0; }
 
  private:
-  std::size_t work_left_ = 2'000'000'000;  // tests of a corner against an ear: some seconds
+  std::size_t work_left_ = 100'000'000;  // tests of a corner against an ear: some seconds
 };
 
 }  // namespace silvavis::assets

@@ -24,6 +24,7 @@ struct Instance {
   float scale = 1;
   Turn turn{1, 0};
   std::uint32_t model = 0;  // into Scene::models
+  float dither = 0;         // in [0, 1): its own, so that neighbours change their level at different distances
 };
 
 // A mixing of bits with the avalanche of murmur3's finaliser: every bit of place and site changes every bit of it.
@@ -49,9 +50,23 @@ inline Instance instance_at(const Scene& scene, const PlantLayer& layer, int col
                        static_cast<double>(layer.step_m[position]) * static_cast<double>(height)};
   instance.scale = tile.radius_m[slot] / species.model_radius_m;
   instance.turn = turns()[hash & 255];
+  instance.dither = static_cast<float>(hash >> 3 & 255) / 256.0f;
   instance.model = species.first_model +
                    static_cast<std::uint32_t>((static_cast<std::uint64_t>(hash >> 8) * species.variants) >> 24);
   return instance;
+}
+
+// Which level of a model to meet with a ray of this width: the simplest whose leaves are no wider.
+inline std::uint8_t level_for(const PlantModel& model, const Instance& instance, float width_m) {
+  const float wide = width_m / (instance.scale * (0.75f + 0.5f * instance.dither));
+  std::uint8_t level = 0;
+  while (level < model.coarser.size() && model.coarser[level]->leaf_m <= wide) ++level;
+  return level;
+}
+
+inline const PlantModel& model_at(const Scene& scene, std::uint32_t model, std::uint8_t level) {
+  const PlantModel& full = *scene.models[model];
+  return level == 0 ? full : *full.coarser[level - 1u];
 }
 
 // A ray in a model's space: from the point of the ray nearest to the plant's axis on, so that floats keep a fraction of

@@ -11,6 +11,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,16 @@ struct Cutout {
   bool two_sided = true;                // the material's
 };
 
+// What a model and its simpler levels share.
+struct Looks {
+  std::vector<assets::Material> materials;
+  std::vector<Cutout> cutouts;  // one a material
+  std::vector<assets::Texture> textures;
+
+  std::size_t bytes() const;
+};
+std::shared_ptr<const Looks> looks_of(const assets::Model& model);
+
 struct PlantModel {
   std::string name;
   V3 origin{0, 0, 0};
@@ -78,9 +89,12 @@ struct PlantModel {
   float foot_m = 0;   // the same within the lowest fiftieth: how far the stem's foot reaches out on a slope
   V3 least{0, 0, 0}, most{0, 0, 0};
   std::uint32_t triangles = 0;
-  std::vector<assets::Material> materials;
-  std::vector<Cutout> cutouts;  // one a material
-  std::vector<assets::Texture> textures;
+  std::shared_ptr<const Looks> looks;
+
+  // Simpler ones, for where a pixel is wider than their leaves; each simpler than the one before (levels/thin.h).
+  std::vector<std::shared_ptr<const PlantModel>> coarser;
+  float leaf_m = 0;  // side of a typical leaf
+  float tint = 1;    // what its colours are multiplied with, to be as bright as the full model
 
   V3 position_of(std::uint32_t slot, int corner) const {
     const auto& c = blocks[slot / block_size].corners[static_cast<std::size_t>(corner)];
@@ -97,8 +111,7 @@ struct PlantModel {
   std::size_t bytes() const {
     std::size_t sum =
         nodes.size() * sizeof(TreeNode) + blocks.size() * sizeof(TriangleBlock) + normals.size() * sizeof(SlotNormals);
-    for (const assets::Texture& texture : textures) sum += texture.rgba.size();
-    for (const Cutout& cutout : cutouts) sum += cutout.holes.size() * sizeof(std::uint64_t);
+    for (const auto& level : coarser) sum += level->bytes();
     return sum;
   }
 };
@@ -114,13 +127,11 @@ TrianglePoint meet_triangle(const PlantModel& model, std::uint32_t slot, const V
 std::array<std::uint8_t, 2> packed_normal(const V3& normal);
 V3 unpacked_normal(const std::array<std::uint8_t, 2>& packed);
 
-Cutout cutout_of(const assets::Material& material, const std::vector<assets::Texture>& textures);
-
 // Whether the surface has a hole at a hit with these weights of corners 1 and 2. The one rule that all backends share.
 inline bool is_hole(const PlantModel& model, std::uint32_t slot, float u, float v) {
   const TriangleBlock& block = model.blocks[slot / block_size];
   const std::uint32_t lane = slot % block_size;
-  const Cutout& cutout = model.cutouts[block.materials[lane]];
+  const Cutout& cutout = model.looks->cutouts[block.materials[lane]];
   if (cutout.width == 0) return false;
   const auto between = [&](std::size_t axis) {
     return static_cast<float>(block.uv[0][axis][lane]) * (1 - u - v) + static_cast<float>(block.uv[1][axis][lane]) * u +

@@ -57,9 +57,9 @@ SurfacePoint surface_at(const scene::Scene& scene, const Land& land, const accel
   point.at = ray.origin + V3d(ray.direction) * hit.distance;
   if (hit.surface == accel::Surface::ground) return ground_point(scene, land, ray, point);
 
-  const scene::PlantModel& model = *scene.models[hit.model];
+  const scene::PlantModel& model = scene::model_at(scene, hit.model, hit.level);
   const scene::SlotNormals& normals = model.normals[hit.slot];
-  const assets::Material& material = model.materials[model.material_of(hit.slot)];
+  const assets::Material& material = model.looks->materials[model.material_of(hit.slot)];
   const float w = 1 - hit.u - hit.v;
   const V3 local = scene::unpacked_normal(normals[0]) * w + scene::unpacked_normal(normals[1]) * hit.u +
                    scene::unpacked_normal(normals[2]) * hit.v;
@@ -73,11 +73,11 @@ SurfacePoint surface_at(const scene::Scene& scene, const Land& land, const accel
   const bool front = scene::turned(plant.turn, plane).dot(ray.direction) <= 0;
   point.normal = front ? bent : -bent;
   if (point.normal.dot(ray.direction) > 0) point.normal = point.plane;
-  point.reflectance = material.reflectance;
-  point.transmittance = material.transmittance;
+  point.reflectance = material.reflectance * model.tint;
+  point.transmittance = material.transmittance * model.tint;
   if (material.texture != assets::no_texture) {
     const V2 uv = model.uv_of(hit.slot, 0) * w + model.uv_of(hit.slot, 1) * hit.u + model.uv_of(hit.slot, 2) * hit.v;
-    const Rgb colour = texture_colour(model.textures[static_cast<std::size_t>(material.texture)], uv);
+    const Rgb colour = texture_colour(model.looks->textures[static_cast<std::size_t>(material.texture)], uv);
     point.reflectance *= colour;
     point.transmittance *= colour;
   }
