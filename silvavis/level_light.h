@@ -1,4 +1,4 @@
-// How brightly a model alone is lit: what simpler levels are matched by.
+// How brightly a model is lit in a wood of its kind: what simpler levels are matched by.
 #pragma once
 
 #include <memory>
@@ -7,8 +7,8 @@
 
 namespace silvavis {
 
-// Mean brightness of what is seen of the plant over several views and places of the sun, with its own shadows; full colours, no
-// sky. Only ratios mean something. Threads: any. Cost: 30 ms.
+// Mean brightness of what is seen of nine such plants over three views, under two places of the sun and a sky, with all shadows. Only
+// ratios mean something. Threads: any. Cost: 30 ms.
 double lit_brightness(const std::shared_ptr<const scene::PlantModel>& model);
 
 }  // namespace silvavis

@@ -10,6 +10,8 @@
 #include "silvasim/base/error.h"
 #include "silvasim/base/progress.h"
 #include "silvavis/commands/diff.h"
+#include "silvavis/commands/fly.h"
+#include "silvavis/commands/info.h"
 #include "silvavis/commands/render.h"
 
 namespace {
@@ -18,6 +20,8 @@ using namespace silvavis::commands;
 
 struct Options {
   RenderOptions render;
+  FlyOptions fly;
+  InfoOptions info;
   DiffOptions diff;
 };
 
@@ -34,6 +38,10 @@ void add_stage(CLI::App& command, StageOptions& o) {
   command.add_option("--variants", o.variants, "Grown models a species (default: 2)")->check(CLI::Range(1, 64));
   command.add_option("--backend", o.backend, "nested: Silva's trees; embree: one flat structure, for comparison")
       ->check(CLI::IsMember({"nested", "embree"}));
+  command
+      .add_option("--lod", o.lod,
+                  "auto: simpler models where leaves are smaller than a pixel; off: full models everywhere")
+      ->check(CLI::IsMember({"auto", "off"}));
   command.add_option(
       "--sun", o.sun,
       "Date and time, like 2026-06-21T10:00 or with Z or +02:00 (default: that, in the place's zone time)");
@@ -42,6 +50,15 @@ void add_stage(CLI::App& command, StageOptions& o) {
       ->expected(2);
   command.add_option("--visibility", o.visibility_km, "How far one sees through the haze, in km (default: 60)")
       ->check(CLI::Range(1.0, 300.0));
+  LandOptions& land = o.land;
+  command.add_option("--drape", land.drape,
+                     "Picture that lies on the land; without a georeference over the whole scene");
+  command.add_option("--classes", land.classes, "Raster of classes that colours the land, by its own palette");
+  command.add_option("--class-colours", land.class_colours, "Colours of --classes: a CSV of code,class,#rrggbb");
+  command.add_flag("--hillshade", land.hillshade, "Plain grey land");
+  command.add_option("--water", land.water,
+                     "Polygons and lines that mirror: waters.geojson, .gpkg or .shp, with #layer (may be repeated)");
+  command.add_option("--water-width", land.water_width_m, "Width of water lines in metres (default: 2)");
   command.add_option("--seed", o.seed, "Of turns, grown plants and samples (default: 1)")
       ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{9007199254740991}));
   command.add_flag("--json", o.common.json, "Print one JSON object instead of text");
@@ -52,18 +69,11 @@ void add_stage(CLI::App& command, StageOptions& o) {
       ->check(CLI::Range(1, 1024));
 }
 
-void add_render(CLI::App& app, Options& options) {
-  RenderOptions& o = options.render;
-  CLI::App* command = app.add_subcommand("render", "Render a picture");
+// What render and fly share; returns --fov.
+CLI::Option* add_picture(CLI::App* command, RenderOptions& o) {
   add_stage(*command, o.stage);
-  command
-      ->add_option("-o,--output", o.output, "Picture to write: .exr (linear), .png, .jpg or .tif (as the eye sees it)")
-      ->required();
-  command->add_option("--eye", o.eye,
-                      "E,N,H of the eye in the scene's metres; +H is above the ground (default: the whole scene)");
-  command->add_option("--look-at", o.look_at, "E,N,H of the picture's centre");
-  command->add_option("--fov", o.fov_deg, "Horizontal angle of view in degrees (default: 50)")
-      ->check(CLI::Range(0.01, 170.0));
+  CLI::Option* fov = command->add_option("--fov", o.fov_deg, "Horizontal angle of view in degrees (default: 50)")
+                         ->check(CLI::Range(0.01, 170.0));
   command->add_option("--size", o.size, "WIDTHxHEIGHT in pixels (default: 1920x1080)");
   command->add_option("--spp", o.samples, "Samples a pixel, at most (default: 16)")->check(CLI::Range(1, 65536));
   command
@@ -81,7 +91,53 @@ void add_render(CLI::App& app, Options& options) {
           "Also keep depth, normal, species, plant-id (commas); EXR holds them, other pictures put them beside")
       ->delimiter(',')
       ->check(CLI::IsMember({"depth", "normal", "species", "plant-id"}));
+  return fov;
+}
+
+void add_render(CLI::App& app, Options& options) {
+  RenderOptions& o = options.render;
+  CLI::App* command = app.add_subcommand("render", "Render a picture");
+  CLI::Option* fov = add_picture(command, o);
+  command
+      ->add_option("-o,--output", o.output, "Picture to write: .exr (linear), .png, .jpg or .tif (as the eye sees it)")
+      ->required();
+  CLI::Option* camera = command->add_option("--camera", o.camera, "Camera by name: cameras.xml#valley")->excludes(fov);
+  command
+      ->add_option("--eye", o.eye,
+                   "E,N,H of the eye in the scene's metres; +H is above the ground (default: the whole scene)")
+      ->excludes(camera);
+  command->add_option("--look-at", o.look_at, "E,N,H of the picture's centre")->excludes(camera);
   command->callback([&o] { render(o); });
+}
+
+void add_fly(CLI::App& app, Options& options) {
+  FlyOptions& o = options.fly;
+  CLI::App* command = app.add_subcommand("fly", "Render the frames of a flight");
+  CLI::Option* fov = add_picture(command, o.picture);
+  command->add_option("path", o.path, "The flight: .xml, or a line of .geojson")->required();
+  command->add_option("-o,--output", o.output, "Frames to write: frames/%04d.png, or .exr, .jpg, .tif")->required();
+  command->add_option("--fps", o.fps, "Frames a second (default: the path's, or 25)");
+  command->add_option("--speed", o.speed_m_s, "Metres a second (default: by the path's duration, or 20)");
+  command->add_option("--duration", o.duration_s, "Seconds of the whole flight, instead of --speed");
+  command->add_option("--height-above-ground", o.height_above_ground_m,
+                      "Metres above the ground, instead of the heights in a .geojson");
+  command->add_option("--look-down", o.look_down_deg,
+                      "Degrees below the way ahead, where the path does not say where to look (default: 8)");
+  command->add_option("--frames", o.frames, "Only these: 1-250");
+  command->add_option("--sun-to", o.sun_to, "The sun moves from --sun to this date and time");
+  command->add_flag("--overwrite", o.overwrite, "Make frames anew that are there already");
+  command->add_flag("--resume", o.resume, "Make only frames that are not there yet");
+  command->callback([&o, fov] {
+    o.fov_given = fov->count() > 0;
+    fly(o);
+  });
+}
+
+void add_info(CLI::App& app, Options& options) {
+  InfoOptions& o = options.info;
+  CLI::App* command = app.add_subcommand("info", "Tell what would be rendered, with which models, and what it takes");
+  add_stage(*command, o.stage);
+  command->callback([&o] { info(o); });
 }
 
 void add_diff(CLI::App& app, Options& options) {
@@ -110,6 +166,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   Options options;
   add_render(app, options);
+  add_fly(app, options);
+  add_info(app, options);
   add_diff(app, options);
   app.footer("silvavis COMMAND --help tells a command's options.");
   try {

@@ -16,7 +16,7 @@ namespace silvavis {
 namespace {
 
 constexpr int block_px = 16;
-constexpr int samples_a_pass = 4;
+constexpr int samples_a_pass = 4, least_samples = 16;
 
 // The pixels' filter is a Gaussian of standard deviation 0.45 pixels, cut at 1.5: samples are drawn from it and all count
 // the same (Ernst, Stamminger and Greiner 2006, filter importance sampling).
@@ -96,7 +96,8 @@ class Block {
  private:
   bool is_done(const Pixel& pixel) const {
     if (pixel.samples >= options_.samples) return true;
-    if (options_.error <= 0 || pixel.samples < 2 * samples_a_pass) return false;
+    // Fewer would end where chance made a pixel dark and even, and darken the picture.
+    if (options_.error <= 0 || pixel.samples < least_samples) return false;
     const double n = pixel.samples, mean = pixel.tone / n;
     const double variance = std::max(0.0, pixel.tone_squared / n - mean * mean) / (n - 1);
     return std::sqrt(variance) < options_.error;

@@ -32,7 +32,7 @@ struct RenderOptions {
   double error = 0.02;  // a pixel ends below this standard error of its square-rooted luminance; 0: all get all samples
   int sky_rays = 1;     // 0: the sky without shadows of its own
   bool sun_shadows = true;
-  bool lod = true;       // simpler models where a pixel is wider than their leaves
+  bool lod = true;    // simpler models where a pixel is wider than their leaves
   bool aovs = false;  // depth, normal, species, plant
   std::uint64_t seed = 1;
 };

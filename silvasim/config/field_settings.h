@@ -69,6 +69,7 @@ struct FieldSettings {
   std::string where;  // OGR attribute filter
   VectorMeasure measure = VectorMeasure::inside;
   std::string attribute;
+  double line_width_m = 0;  // lines are drawn this wide; 0: a cell. Not in the XML: pictures use it (silvavis)
   double resolution_m = 0;  // cell size of the burnt raster; 0: a 2000th of the scene's longer side, 1 m at least
 
   // derived

@@ -20,6 +20,8 @@ enum class ValueType {
   boolean,   // true | false
   fraction,  // 0 to 1, or a percentage: 0.25, 25 %
   length,    // metres, or with unit: 200 m, 0.2 km, 30 cm, 100 ft
+  angle,     // degrees, with or without the unit: 55, 55 deg
+  duration,  // seconds, or with unit: 12 s, 2 min, 400 ms
   colour,    // #rrggbb
   choice,    // one of `choices`
 };

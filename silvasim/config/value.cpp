@@ -18,6 +18,8 @@ struct Unit {
 
 constexpr Unit length_units[] = {{"m", 1}, {"km", 1000}, {"cm", 0.01}, {"mm", 0.001}, {"ft", 0.3048}};
 constexpr Unit fraction_units[] = {{"%", 0.01}};
+constexpr Unit angle_units[] = {{"deg", 1}};
+constexpr Unit duration_units[] = {{"s", 1}, {"min", 60}, {"ms", 0.001}};
 
 std::string quoted(const std::string& text) {
   constexpr std::size_t most_shown = 80;
@@ -69,6 +71,10 @@ ParsedValue parse_number(const std::string& text, ValueType type, double least, 
       problem = apply_unit(text, length_units, number, unit);
     } else if (type == ValueType::fraction) {
       problem = apply_unit(text, fraction_units, number, unit);
+    } else if (type == ValueType::angle) {
+      problem = apply_unit(text, angle_units, number, unit);
+    } else if (type == ValueType::duration) {
+      problem = apply_unit(text, duration_units, number, unit);
     } else if (!unit.empty()) {
       problem = quoted(text) + " has " + quoted(unit) +
                 " after the number; it takes a plain number in the unit of its data field";
@@ -127,6 +133,8 @@ ParsedValue parse_value(const std::string& text, ValueType type, const std::vect
     case ValueType::number:
     case ValueType::integer:
     case ValueType::length:
+    case ValueType::angle:
+    case ValueType::duration:
       return parse_number(text, type, least, most);
     case ValueType::fraction:
       return parse_number(text, type, std::max(least, 0.0), std::min(most, 1.0));
@@ -177,6 +185,10 @@ std::string describe(ValueType type, const std::vector<std::string>& choices, do
       return "a share from 0 to 1, or a percentage";
     case ValueType::length:
       return "a length in metres, or with m, km, cm, mm, ft" + range;
+    case ValueType::angle:
+      return "an angle in degrees" + range;
+    case ValueType::duration:
+      return "a time in seconds, or with s, min, ms" + range;
     case ValueType::colour:
       return "a colour like #1f5f3a";
     case ValueType::choice: {

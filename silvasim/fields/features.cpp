@@ -190,6 +190,10 @@ BurnCount burn_features(const VectorFile& file, const config::FieldSettings& fie
       if (raw && clean.is_elsewhere(*raw)) continue;
       if (raw && !std::isnan(number)) geometry = clean(*raw);
     }
+    if (geometry && geometry->getDimension() == 1 && options.line_width_m > 0) {
+      GdalLog quiet;
+      geometry.reset(geometry->Buffer(options.line_width_m / 2, 4));
+    }
     if (!geometry) {
       ++count.skipped;
       continue;

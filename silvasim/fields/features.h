@@ -11,6 +11,7 @@ namespace silvasim::fields {
 
 struct BurnOptions {
   std::string attribute;     // burn this attribute's number; "": burn 1
+  double line_width_m = 0;   // lines become areas of this width; 0: the cells that they touch
   bool all_touched = false;  // every cell that a polygon touches, else those whose centre it holds; lines: touched
 };
 

@@ -166,7 +166,7 @@ Raster distance_field(const Layer& layer, const Frame& frame, double cell, BurnC
   double seen_m = 0, margin_m = std::max(longer / 8, 128 * cell);
   for (double step = cell;; step *= 2, seen_m = margin_m, margin_m *= 2) {
     Raster window = blank(frame, step, static_cast<int>(std::ceil(margin_m / step)) + rim_cells, 0);
-    count = burn(layer, {.attribute = {}, .all_touched = true}, window);
+    count = burn(layer, {.attribute = {}, .line_width_m = 0, .all_touched = true}, window);
     if (count.burnt > 0) {
       window.values = distances(window);
       if (step == cell) {
@@ -199,7 +199,11 @@ RasterField load_vector_field(const config::FieldSettings& field, const Frame& f
   } else {
     const bool inside = field.measure == VectorMeasure::inside;
     result.raster = blank(frame, cell, rim_cells, inside ? 0 : std::numeric_limits<float>::quiet_NaN());
-    count = burn(layer, {.attribute = inside ? std::string{} : field.attribute, .all_touched = false}, result.raster);
+    count = burn(layer,
+                 {.attribute = inside ? std::string{} : field.attribute,
+                  .line_width_m = field.line_width_m,
+                  .all_touched = false},
+                 result.raster);
   }
   check_count(layer, count);
   if (field.measure == VectorMeasure::attribute && count.burnt == 0) {

@@ -258,9 +258,8 @@ class Flatland final : public Tracer {
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, vertices.size()));
     for (std::size_t i = 0; i < vertices.size(); ++i) std::copy_n(&vertices[i].x, 3, buffer + i * 3);
     rtcSetGeometryUserData(geometry, const_cast<scene::PlantModel*>(&model));
-    const bool holes =
-        std::any_of(model.looks->cutouts.begin(), model.looks->cutouts.end(),
-                    [](const scene::Cutout& cutout) { return cutout.width > 0 || !cutout.two_sided; });
+    const bool holes = std::any_of(model.looks->cutouts.begin(), model.looks->cutouts.end(),
+                                   [](const scene::Cutout& cutout) { return cutout.width > 0 || !cutout.two_sided; });
     if (holes) {
       rtcSetGeometryIntersectFilterFunction(geometry, exact_ ? skip_holes_exactly : skip_holes);
       rtcSetGeometryOccludedFilterFunction(geometry, exact_ ? skip_holes_exactly : skip_holes);

@@ -34,7 +34,8 @@ HWY_INLINE std::uint32_t turned_bits(std::uint32_t bits, bool flip_x, bool flip_
 // Calls leaf(column, row, near, far, low, high) for the items whose box the ray crosses, about front to back, from the nodes on
 // the stack down; `best` may shrink meanwhile, and leaf returns true to end the walk.
 template <typename Leaf>
-HWY_INLINE void walk_pyramid(const scene::Pyramid& pyramid, const FlatRay& ray, PyramidStack& stack, const double& best, Leaf& leaf) {
+HWY_INLINE void walk_pyramid(const scene::Pyramid& pyramid, const FlatRay& ray, PyramidStack& stack, const double& best,
+                             Leaf& leaf) {
   const bool flip_x = ray.dx < 0, flip_y = ray.dy < 0;
   const std::uint32_t flip = (flip_x ? 3u : 0u) | (flip_y ? 12u : 0u);
   const float margin = pyramid.margin_m + 0.01f;  // floats of world space are off by millimetres
@@ -54,14 +55,17 @@ HWY_INLINE void walk_pyramid(const scene::Pyramid& pyramid, const FlatRay& ray, 
     }
     const scene::Pyramid::Level& level = pyramid.levels[static_cast<std::size_t>(entry.level)];
     const scene::PyramidNode& node =
-        level.nodes[static_cast<std::size_t>(entry.row) * static_cast<std::size_t>(level.columns) + static_cast<std::size_t>(entry.column)];
+        level.nodes[static_cast<std::size_t>(entry.row) * static_cast<std::size_t>(level.columns) +
+                    static_cast<std::size_t>(entry.column)];
     const auto across = static_cast<float>(1u << (2 * entry.level));
     const float cell_x = pyramid.cell_x_m * across, cell_y = pyramid.cell_y_m * across;
     const float west = pyramid.west + static_cast<float>(entry.column * 4) * cell_x - ray.ox;
     const float south = pyramid.south + static_cast<float>(entry.row * 4) * cell_y - ray.oy;
     // Near and far planes of the first column and row; the others follow cell by cell.
-    const float x_in = (west + (flip_x ? cell_x + margin : -margin)) * ray.ix, x_out = (west + (flip_x ? -margin : cell_x + margin)) * ray.ix;
-    const float y_in = (south + (flip_y ? cell_y + margin : -margin)) * ray.iy, y_out = (south + (flip_y ? -margin : cell_y + margin)) * ray.iy;
+    const float x_in = (west + (flip_x ? cell_x + margin : -margin)) * ray.ix,
+                x_out = (west + (flip_x ? -margin : cell_x + margin)) * ray.ix;
+    const float y_in = (south + (flip_y ? cell_y + margin : -margin)) * ray.iy,
+                y_out = (south + (flip_y ? -margin : cell_y + margin)) * ray.iy;
     const V8 per_x = hn::Set(f8, cell_x * ray.ix), per_y = hn::Set(f8, cell_y * ray.iy);
     const V8 least = hn::Set(f8, entry.near), greatest = hn::Set(f8, std::min(entry.far, most));
     HWY_ALIGN float nears[16], fars[16], lows[16], highs[16];
@@ -87,15 +91,18 @@ HWY_INLINE void walk_pyramid(const scene::Pyramid& pyramid, const FlatRay& ray, 
       order ^= 1u << last;
       const std::uint32_t child = last ^ flip;
       stack.push({nears[child], fars[child], lows[child], highs[child], entry.level - 1,
-                  entry.column * 4 + static_cast<std::int32_t>(child & 3), entry.row * 4 + static_cast<std::int32_t>(child >> 2)});
+                  entry.column * 4 + static_cast<std::int32_t>(child & 3),
+                  entry.row * 4 + static_cast<std::int32_t>(child >> 2)});
     }
   }
 }
 
 template <typename Leaf>
-HWY_INLINE void walk_whole_pyramid(const scene::Pyramid& pyramid, const FlatRay& ray, float least, const double& best, Leaf& leaf) {
+HWY_INLINE void walk_whole_pyramid(const scene::Pyramid& pyramid, const FlatRay& ray, float least, const double& best,
+                                   Leaf& leaf) {
   PyramidStack stack;
-  stack.push({least, static_cast<float>(std::min(best, 1e30)), 0, 0, static_cast<std::int32_t>(pyramid.levels.size()) - 1, 0, 0});
+  stack.push({least, static_cast<float>(std::min(best, 1e30)), 0, 0,
+              static_cast<std::int32_t>(pyramid.levels.size()) - 1, 0, 0});
   walk_pyramid(pyramid, ray, stack, best, leaf);
 }
 
@@ -154,7 +161,8 @@ struct GroundWalk {
 };
 
 // The ground between near and far, a stretch no longer than a tile: begins at the few nodes that it can touch.
-HWY_INLINE bool nearest_ground(const scene::Scene& scene, const FlatRay& flat, const Ray& ray, float near, float far, double& best) {
+HWY_INLINE bool nearest_ground(const scene::Scene& scene, const FlatRay& flat, const Ray& ray, float near, float far,
+                               double& best) {
   const scene::Pyramid& pyramid = scene.ground.pyramid;
   const scene::Pyramid::Level& level = pyramid.levels[static_cast<std::size_t>(scene.land.ground_level)];
   const auto across = static_cast<float>(4u << (2 * scene.land.ground_level));
@@ -162,11 +170,14 @@ HWY_INLINE bool nearest_ground(const scene::Scene& scene, const FlatRay& flat, c
     return std::clamp(static_cast<int>(std::floor((at - origin) / size)), 0, count - 1);
   };
   const float wide = pyramid.cell_x_m * across, high = pyramid.cell_y_m * across;
-  const float x0 = flat.ox + flat.dx * near, x1 = flat.ox + flat.dx * far, y0 = flat.oy + flat.dy * near, y1 = flat.oy + flat.dy * far;
+  const float x0 = flat.ox + flat.dx * near, x1 = flat.ox + flat.dx * far, y0 = flat.oy + flat.dy * near,
+              y1 = flat.oy + flat.dy * far;
   constexpr float slack_m = 0.02f;
   const float out_x = flat.dx < 0 ? -slack_m : slack_m, out_y = flat.dy < 0 ? -slack_m : slack_m;
-  const int first_column = node_at(x0 - out_x, pyramid.west, wide, level.columns), last_column = node_at(x1 + out_x, pyramid.west, wide, level.columns);
-  const int first_row = node_at(y0 - out_y, pyramid.south, high, level.rows), last_row = node_at(y1 + out_y, pyramid.south, high, level.rows);
+  const int first_column = node_at(x0 - out_x, pyramid.west, wide, level.columns),
+            last_column = node_at(x1 + out_x, pyramid.west, wide, level.columns);
+  const int first_row = node_at(y0 - out_y, pyramid.south, high, level.rows),
+            last_row = node_at(y1 + out_y, pyramid.south, high, level.rows);
   PyramidStack stack;
   const PyramidEntry entry{near, far, 0, 0, scene.land.ground_level, 0, 0};
   const auto push = [&](int column, int row) HWY_ATTR {

@@ -38,7 +38,8 @@ HWY_INLINE bool trace(const scene::Scene& scene, const Ray& ray, Hit& hit) {
   const FlatRay flat(ray);
   double best = ray.most;
   const bool has_plants = !scene.layers.empty();
-  LandWalk<any_hit> land{scene, {scene, has_plants ? scene.layers[0] : none, 0, ray, flat, best, hit, false}, has_plants};
+  LandWalk<any_hit> land{
+      scene, {scene, has_plants ? scene.layers[0] : none, 0, ray, flat, best, hit, false}, has_plants};
   walk_whole_pyramid(scene.land.pyramid, flat, static_cast<float>(ray.least), best, land);
   if (any_hit && land.found) return true;
   for (std::size_t k = 1; k < scene.layers.size(); ++k) {

@@ -64,6 +64,24 @@ struct FlatRay {
         iz(inverse(dz)) {}
 };
 
+// What waits on a stack: a distance beyond the walk's begin and what is there, in one number that sorts by the distance (the
+// bits of floats that are not negative sort like the floats).
+HWY_INLINE std::uint64_t waiting(float beyond, std::uint32_t index, bool leaf) {
+  return std::uint64_t{std::bit_cast<std::uint32_t>(beyond)} << 32 | std::uint64_t{index} << 1 | (leaf ? 1 : 0);
+}
+HWY_INLINE float distance_of(std::uint64_t entry) {
+  return std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32));
+}
+HWY_INLINE std::uint32_t index_of(std::uint64_t entry) { return static_cast<std::uint32_t>(entry) >> 1; }
+HWY_INLINE bool is_leaf(std::uint64_t entry) { return (entry & 1) != 0; }
+
+// Adds to the sorted part above `bottom`, the farthest lowest.
+HWY_INLINE void insert(std::uint64_t* stack, int& size, int bottom, std::uint64_t entry) {
+  int at = size++;
+  for (; at > bottom && stack[at - 1] < entry; --at) stack[at] = stack[at - 1];
+  stack[at] = entry;
+}
+
 }  // namespace silvavis::accel::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -117,28 +117,23 @@ HWY_INLINE bool hit_model(const scene::PlantModel& model, const V3& o, const V3&
   float from = least, to = hit.t;
   if (!cross_hull(model.hull, o, d, from, to)) return false;
 
-  struct Entry {
-    float near;
-    std::uint32_t index;
-    bool leaf;
-  };
   // Each level leaves at most fifteen behind; pack() bounds the depth.
-  Entry stack[16 * 15 + 1];
+  std::uint64_t stack[16 * 15 + 1];
   int size = 0;
-  stack[size++] = {from, 0, false};
+  stack[size++] = waiting(0, 0, false);
   bool found = false;
   const float ix = inverse(d.x), iy = inverse(d.y), iz = inverse(d.z);
   while (size > 0) {
-    const Entry entry = stack[--size];
-    if (entry.near > hit.t) continue;
-    if (entry.leaf) {
-      if (hit_block<any_hit>(model, entry.index, o, d, least, hit)) {
+    const std::uint64_t entry = stack[--size];
+    if (from + distance_of(entry) > hit.t) continue;
+    if (is_leaf(entry)) {
+      if (hit_block<any_hit>(model, index_of(entry), o, d, least, hit)) {
         found = true;
         if (any_hit) return true;
       }
       continue;
     }
-    const scene::TreeNode& node = model.nodes[entry.index];
+    const scene::TreeNode& node = model.nodes[index_of(entry)];
     const auto& x_in = d.x < 0 ? node.most[0] : node.least[0];
     const auto& x_out = d.x < 0 ? node.least[0] : node.most[0];
     const auto& y_in = d.y < 0 ? node.most[1] : node.least[1];
@@ -160,7 +155,7 @@ HWY_INLINE bool hit_model(const scene::PlantModel& model, const V3& o, const V3&
                              hn::Min(distance(z_out, scale_z, shift_z), hn::Set(f8, std::min(hit.t, to))));
       // Rounding may shorten a grazed box by a few units in the last place (Ize 2013).
       const V8 wider = hn::Add(far, hn::Set(f8, 1e-5f));
-      hn::Store(near, f8, nears + k);
+      hn::Store(hn::Sub(near, hn::Set(f8, from)), f8, nears + k);
       hits |= bits_of(f8, hn::Le(near, wider)) << k;
     }
     hits &= static_cast<std::uint32_t>(node.inner | node.leaves);
@@ -182,9 +177,7 @@ HWY_INLINE bool hit_model(const scene::PlantModel& model, const V3& o, const V3&
         hwy::Prefetch(next);
         hwy::Prefetch(next + 64);
       }
-      int at = size++;
-      for (; at > bottom && stack[at - 1].near < nears[child]; --at) stack[at] = stack[at - 1];
-      stack[at] = {nears[child], index, leaf};
+      insert(stack, size, bottom, waiting(nears[child], index, leaf));
     }
   }
   return found;

@@ -60,24 +60,19 @@ struct LayerWalk {
   }
 
   HWY_INLINE void walk_tile(const scene::TileSites& tile, std::size_t position, int column, int row, const TileRay& r) {
-    struct Entry {
-      float near;
-      std::uint32_t index;
-      bool leaf;
-    };
-    Entry stack[8 * 15 + 1];
+    std::uint64_t stack[8 * 15 + 1];
     int size = 0;
-    stack[size++] = {r.least, 0, false};
+    stack[size++] = waiting(0, 0, false);
     while (size > 0) {
-      const Entry entry = stack[--size];
+      const std::uint64_t entry = stack[--size];
       const float most = limit(r);
-      if (entry.near > most) continue;
-      if (entry.leaf) {
-        walk_leaf(tile, position, column, row, r, entry.index);
+      if (r.least + distance_of(entry) > most) continue;
+      if (is_leaf(entry)) {
+        walk_leaf(tile, position, column, row, r, index_of(entry));
         if (any_hit && found) return;
         continue;
       }
-      const scene::SiteNode& node = tile.nodes[entry.index];
+      const scene::SiteNode& node = tile.nodes[index_of(entry)];
       const float* const x_in = flat.dx < 0 ? node.most_x.data() : node.least_x.data();
       const float* const x_out = flat.dx < 0 ? node.least_x.data() : node.most_x.data();
       const float* const y_in = flat.dy < 0 ? node.most_y.data() : node.least_y.data();
@@ -93,7 +88,7 @@ struct LayerWalk {
                                        hn::Mul(hn::Sub(hn::LoadU(f8, y_out + k), oy), iy)),
                                hn::Set(f8, most));
         // Children without sites have their least above their most, so that near is beyond far.
-        hn::Store(near, f8, nears + k);
+        hn::Store(hn::Sub(near, hn::Set(f8, r.least)), f8, nears + k);
         hits |= bits_of(f8, hn::Le(near, far)) << k;
       }
       // The farthest is pushed first.
@@ -101,9 +96,7 @@ struct LayerWalk {
       while (hits != 0) {
         const auto child = static_cast<std::uint32_t>(std::countr_zero(hits));
         hits &= hits - 1;
-        int at = size++;
-        for (; at > bottom && stack[at - 1].near < nears[child]; --at) stack[at] = stack[at - 1];
-        stack[at] = {nears[child], node.first + child, node.above_leaves};
+        insert(stack, size, bottom, waiting(nears[child], node.first + child, node.above_leaves));
       }
     }
   }

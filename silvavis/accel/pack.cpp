@@ -262,9 +262,7 @@ class Packer {
       node.exponent[axis] = static_cast<std::uint8_t>(power + 127);
       const float step = node.step(axis);
       for (std::uint32_t c = 0; c < built.count; ++c) {
-        const auto decoded_bound = [&](int byte) {
-          return node.origin[axis] + step * static_cast<float>(byte);
-        };
+        const auto decoded_bound = [&](int byte) { return node.origin[axis] + step * static_cast<float>(byte); };
         int low = static_cast<int>(std::floor((built.bounds[c].least[a] - node.origin[axis]) / step));
         int high = static_cast<int>(std::ceil((built.bounds[c].most[a] - node.origin[axis]) / step));
         while (low > 0 && decoded_bound(low) > built.bounds[c].least[a]) --low;
@@ -312,7 +310,9 @@ class Packer {
   }
 
   void fill_attributes(scene::TriangleBlock& block, std::size_t lane, std::uint32_t triangle) {
-    const auto stored = [](float at, float step) { return static_cast<std::uint16_t>(step > 0 ? std::lround(at / step) : 0); };
+    const auto stored = [](float at, float step) {
+      return static_cast<std::uint16_t>(step > 0 ? std::lround(at / step) : 0);
+    };
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t vertex = from_.triangles[triangle][c];
       const V2 uv = from_.uvs[vertex] - to_.uv_origin;

@@ -9,6 +9,7 @@
 #include "silvasim/base/error.h"
 #include "silvasim/base/machine.h"
 #include "silvasim/base/parallel.h"
+#include "silvavis/commands/cameras.h"
 #include "silvavis/image/file.h"
 
 namespace silvavis::commands {
@@ -21,6 +22,13 @@ using silvasim::base::ConfigError;
 shade::Camera camera_for(const RenderOptions& options, const scene::Scene& scene) {
   shade::Camera camera;
   parse_size(options.size, camera.width, camera.height);
+  if (!options.camera.empty()) {
+    const shade::Camera named = camera_from(options.camera, scene);
+    camera.eye = named.eye;
+    camera.look_at = named.look_at;
+    camera.fov_deg = named.fov_deg;
+    return camera;
+  }
   if (options.eye.empty() != options.look_at.empty())
     throw ConfigError({"command line", 0, 0}, "--eye and --look-at belong together");
   if (options.eye.empty()) {
@@ -36,6 +44,8 @@ shade::Camera camera_for(const RenderOptions& options, const scene::Scene& scene
   return camera;
 }
 
+}  // namespace
+
 // What was asked for stays; empty channels are not written.
 void keep_asked(image::Frame& frame, const std::vector<std::string>& aovs) {
   const auto asked = [&](const char* name) { return std::find(aovs.begin(), aovs.end(), name) != aovs.end(); };
@@ -45,41 +55,51 @@ void keep_asked(image::Frame& frame, const std::vector<std::string>& aovs) {
   if (!asked("plant-id")) frame.plants.clear();
 }
 
-}  // namespace
+silvavis::RenderOptions settings_of(const RenderOptions& options) {
+  silvavis::RenderOptions settings;
+  settings.samples = options.samples;
+  settings.error = options.error;
+  settings.sky_rays = options.sky_rays;
+  settings.sun_shadows = options.shadows;
+  settings.lod = options.stage.lod == "auto";
+  settings.aovs = !options.aovs.empty();
+  settings.seed = options.stage.seed;
+  return settings;
+}
+
+std::string place_text(const scene::Scene& scene, const V3d& p) {
+  return fmt::format("{:.2f},{:.2f},{:.2f}", p.x + scene.origin.x, p.y + scene.origin.y, p.z);
+}
+
+std::map<std::string, std::string> metadata_of(const Stage& stage, const shade::Camera& camera) {
+  return {{"Software", std::string("silvavis ") + SILVA_VERSION},
+          {"silva:eye", place_text(stage.scene, camera.eye)},
+          {"silva:look_at", place_text(stage.scene, camera.look_at)},
+          {"silva:fov_deg", fmt::format("{}", camera.fov_deg)},
+          {"silva:sun", fmt::format("{:.2f},{:.2f}", stage.sun.azimuth_deg, stage.sun.elevation_deg)}};
+}
 
 void render(const RenderOptions& options) {
   const Common& common = options.stage.common;
   const silvasim::base::ThreadLimit threads(common.threads);
   image::WriteOptions write;
   write.exposure_stops = options.exposure_stops;
-  write.inputs = {options.stage.ecosystem};
+  write.inputs = inputs_of(options.stage);
+  if (!options.camera.empty()) write.inputs.push_back(camera_file(options.camera));
   image::check_writable(options.output, write);
   const silvasim::base::Progress progress = silvasim::terminal::console_progress(common);
   const std::unique_ptr<Stage> stage = set_stage(options.stage, progress);
 
-  silvavis::RenderOptions settings;
+  silvavis::RenderOptions settings = settings_of(options);
   settings.camera = camera_for(options, stage->scene);
-  settings.samples = options.samples;
-  settings.error = options.error;
-  settings.sky_rays = options.sky_rays;
-  settings.sun_shadows = options.shadows;
-  settings.aovs = !options.aovs.empty();
-  settings.seed = options.stage.seed;
+  set_light(*stage, options.stage, settings.camera.eye.z);
   const auto begin = std::chrono::steady_clock::now();
   RenderStatistics statistics;
   image::Frame frame =
       silvavis::render(stage->scene, *stage->tracer, *stage->light, stage->land, settings, progress, &statistics);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   keep_asked(frame, options.aovs);
-  const V3d eye = settings.camera.eye, at = settings.camera.look_at;
-  const auto place = [&](const V3d& p) {
-    return fmt::format("{:.2f},{:.2f},{:.2f}", p.x + stage->scene.origin.x, p.y + stage->scene.origin.y, p.z);
-  };
-  write.metadata = {{"Software", std::string("silvavis ") + SILVA_VERSION},
-                    {"silva:eye", place(eye)},
-                    {"silva:look_at", place(at)},
-                    {"silva:fov_deg", fmt::format("{}", settings.camera.fov_deg)},
-                    {"silva:sun", fmt::format("{:.2f},{:.2f}", stage->sun.azimuth_deg, stage->sun.elevation_deg)}};
+  write.metadata = metadata_of(*stage, settings.camera);
   image::write(options.output, frame, write);
   silvasim::terminal::end_progress(common);
 
@@ -91,8 +111,8 @@ void render(const RenderOptions& options) {
     json["output"] = options.output.string();
     json["plants"] = stage->scene.plants;
     json["models"] = stage->scene.models.size();
-    json["eye"] = place(eye);
-    json["look_at"] = place(at);
+    json["eye"] = place_text(stage->scene, settings.camera.eye);
+    json["look_at"] = place_text(stage->scene, settings.camera.look_at);
     json["fov_deg"] = settings.camera.fov_deg;
     json["size"] = {settings.camera.width, settings.camera.height};
     json["sun"] = {{"azimuth_deg", stage->sun.azimuth_deg}, {"elevation_deg", stage->sun.elevation_deg}};

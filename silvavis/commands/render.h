@@ -1,6 +1,7 @@
 // silvavis render: a picture of an ecosystem.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@ namespace silvavis::commands {
 
 struct RenderOptions {
   StageOptions stage;
+  std::string camera;        // cameras.xml#name
   std::string eye, look_at;  // E,N,H; empty: the whole scene from the south
   double fov_deg = 50;
   std::string size = "1920x1080";
@@ -24,5 +26,11 @@ struct RenderOptions {
 };
 
 void render(const RenderOptions& options);
+
+// What `fly` shares with it: how a picture is sampled, which channels are kept, and what is written beside its pixels.
+silvavis::RenderOptions settings_of(const RenderOptions& options);
+void keep_asked(image::Frame& frame, const std::vector<std::string>& aovs);
+std::map<std::string, std::string> metadata_of(const Stage& stage, const shade::Camera& camera);
+std::string place_text(const scene::Scene& scene, const V3d& world);  // E,N,H
 
 }  // namespace silvavis::commands

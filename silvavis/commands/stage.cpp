@@ -15,6 +15,7 @@
 #include "silvavis/accel/embree.h"
 #include "silvavis/accel/nested.h"
 #include "silvavis/flora.h"
+#include "silvavis/shade/surface.h"
 
 namespace silvavis::commands {
 
@@ -42,13 +43,50 @@ std::map<std::string, std::string> overrides(const std::vector<std::string>& giv
   return models;
 }
 
-shade::SunPosition sun_for(const StageOptions& options, const silvasim::fields::FrameReport& frame) {
+shade::SunPosition sun_for(const StageOptions& options, const Stage& stage) {
   if (!options.sun_direction.empty()) return {options.sun_direction[0], options.sun_direction[1]};
-  const shade::Moment moment = shade::parse_moment(options.sun.empty() ? "2026-06-21T10:00" : options.sun);
-  // Land without a place on the earth lies in the middle of Europe.
-  const double longitude = frame.centre ? frame.centre->longitude_deg : 10.0;
-  const double latitude = frame.centre ? frame.centre->latitude_deg : 50.0;
-  return shade::sun_position(moment, longitude, latitude);
+  const shade::Moment moment = shade::parse_moment(options.sun.empty() ? default_sun : options.sun);
+  return shade::sun_position(moment, stage.longitude_deg, stage.latitude_deg);
+}
+
+// What the scene throws back under a sun half up the sky, from rays straight down on an even grid, so that the land beyond
+// its edge looks alike.
+Rgb albedo_from_above(const Stage& stage, const shade::Land& land) {
+  constexpr int side = 48;
+  constexpr float turned_leaves = 0.7f, in_shade = 0.25f;  // shares of the light on level land in the sun
+  const silvasim::base::Box& box = stage.scene.extent;
+  const double top_m = scene_box(stage.scene).greatest_z_m + 10;
+  std::vector<accel::Ray> rays;
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      accel::Ray ray;
+      ray.origin = {box.west + (column + 0.5) * box.width() / side, box.south + (row + 0.5) * box.height() / side,
+                    top_m};
+      ray.direction = {0, 0, -1};
+      rays.push_back(ray);
+    }
+  }
+  std::vector<accel::Hit> hits(rays.size());
+  stage.tracer->nearest(rays, hits);
+  std::vector<Rgb> colours;
+  std::vector<accel::Ray> to_sun;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (hits[i].surface == accel::Surface::none) continue;
+    const shade::SurfacePoint point = shade::surface_at(stage.scene, land, rays[i], hits[i]);
+    if (point.water) continue;
+    colours.push_back(point.reflectance * (hits[i].surface == accel::Surface::plant ? turned_leaves : 1.0f));
+    accel::Ray ray;
+    ray.direction = V3(0, -1, 1).normalized();
+    ray.origin = point.at + V3d(ray.direction) * 0.05;
+    to_sun.push_back(ray);
+  }
+  if (colours.empty()) return stage.albedo;
+  std::vector<std::uint8_t> shaded(to_sun.size());
+  stage.tracer->occluded(to_sun, shaded);
+  Rgb sum(0, 0, 0);
+  for (std::size_t i = 0; i < colours.size(); ++i) sum += colours[i] * (shaded[i] ? in_shade : 1.0f);
+  const Rgb mean = sum / static_cast<float>(colours.size());
+  return Rgb(std::clamp(mean.x, 0.0f, 1.0f), std::clamp(mean.y, 0.0f, 1.0f), std::clamp(mean.z, 0.0f, 1.0f));
 }
 
 }  // namespace
@@ -67,8 +105,10 @@ std::unique_ptr<Stage> set_stage(const StageOptions& options, const silvasim::ba
   flora_options.triangles = options.triangles;
   flora_options.variants = options.variants;
   flora_options.seed = options.seed;
+  flora_options.levels = options.lod == "auto" && options.backend == "nested";
   Flora flora = models_of(ecosystem, flora_options, progress);
   stage->warnings = std::move(flora.warnings);
+  stage->model_sources = std::move(flora.sources);
   stage->seconds.models = seconds_since(mark);
 
   stage->scene = scene::make_scene(std::move(ecosystem), flora.models);
@@ -77,16 +117,39 @@ std::unique_ptr<Stage> set_stage(const StageOptions& options, const silvasim::ba
   stage->tracer = options.backend == "embree" ? accel::make_embree(stage->scene) : accel::make_nested(stage->scene);
   stage->seconds.tracer = seconds_since(mark);
 
-  stage->sun = sun_for(options, frame);
-  shade::SkyOptions sky;
-  sky.sun_direction = shade::sun_direction(stage->sun, frame.convergence_deg);
-  sky.visibility_km = options.visibility_km;
-  stage->light = std::make_unique<Light>(sky);
+  stage->land = land_of(options.land, stage->scene, stage->warnings);
+
+  // Colours of classes are a map's, not the land's.
+  stage->albedo = albedo_from_above(*stage, options.land.classes ? shade::Land{} : stage->land);
+
+  // Land without a place on the earth lies in the middle of Europe.
+  if (frame.centre) {
+    stage->longitude_deg = frame.centre->longitude_deg;
+    stage->latitude_deg = frame.centre->latitude_deg;
+    stage->convergence_deg = frame.convergence_deg;
+  }
+  stage->sun = sun_for(options, *stage);
+  set_light(*stage, options, static_cast<double>(stage->scene.ground.pyramid.origin_m));
   stage->seconds.light = seconds_since(mark);
   if (!options.common.quiet)
     for (const std::string& warning : stage->warnings)
       fmt::print(stderr, "silvavis: warning: {}\n", silvasim::base::printable(warning));
   return stage;
+}
+
+std::vector<Path> inputs_of(const StageOptions& options) {
+  std::vector<Path> inputs{options.ecosystem};
+  for (const Path& file : files_of(options.land)) inputs.push_back(file);
+  return inputs;
+}
+
+void set_light(Stage& stage, const StageOptions& options, double eye_z_m) {
+  shade::SkyOptions sky;
+  sky.sun_direction = shade::sun_direction(stage.sun, stage.convergence_deg);
+  sky.visibility_km = options.visibility_km;
+  sky.ground_albedo = stage.albedo;
+  sky.eye_height_m = std::max(2.0, eye_z_m - static_cast<double>(stage.scene.ground.pyramid.origin_m));
+  stage.light = std::make_unique<Light>(sky);
 }
 
 V3d world_point(const scene::Scene& scene, const std::string& text, const char* option) {

@@ -9,6 +9,7 @@
 
 #include "silvasim/terminal/terminal.h"
 #include "silvavis/accel/tracer.h"
+#include "silvavis/commands/land.h"
 #include "silvavis/render.h"
 #include "silvavis/shade/camera.h"
 #include "silvavis/shade/sun.h"
@@ -18,6 +19,8 @@ namespace silvavis::commands {
 using Path = std::filesystem::path;
 using silvasim::terminal::Common;
 
+inline constexpr const char* default_sun = "2026-06-21T10:00";
+
 struct StageOptions {
   Path ecosystem;
   std::vector<std::string> layers;  // only these; empty: all
@@ -26,9 +29,11 @@ struct StageOptions {
   int triangles = 40000;
   int variants = 2;
   std::string backend = "nested";     // nested | embree
+  std::string lod = "auto";           // auto | off
   std::string sun;                    // a moment; empty: 21 June, 10:00
   std::vector<double> sun_direction;  // azimuth, elevation in degrees; empty: from the moment and the place
   double visibility_km = 60;
+  LandOptions land;
   std::uint64_t seed = 1;
   Common common;
 };
@@ -39,6 +44,10 @@ struct Stage {
   std::unique_ptr<Light> light;
   shade::Land land;
   shade::SunPosition sun;
+  std::vector<std::vector<std::string>> model_sources;  // Flora::sources
+  Rgb albedo{0.08f, 0.11f, 0.05f};                      // of the scene as a whole, for the land around it
+  // For the sun: where the scene's middle is, and how its grid is turned.
+  double longitude_deg = 10, latitude_deg = 50, convergence_deg = 0;
   std::vector<std::string> warnings;
   struct Seconds {
     double read = 0, models = 0, scene = 0, tracer = 0, light = 0;
@@ -47,6 +56,13 @@ struct Stage {
 
 // Prints warnings to standard error. The stage stays where it is made: its tracer refers to it.
 std::unique_ptr<Stage> set_stage(const StageOptions& options, const silvasim::base::Progress& progress);
+
+// The light of `stage.sun` for an eye at that height above the sea: beyond the scene it sees the ground of a round earth, as
+// far below as the scene's lowest point. set_stage() makes the light for an eye on that ground.
+void set_light(Stage& stage, const StageOptions& options, double eye_z_m);
+
+// Files that no output may replace.
+std::vector<Path> inputs_of(const StageOptions& options);
 
 // "E,N,H" in the scene's frame to world space; H above the sea, or with a plus sign above the ground there.
 V3d world_point(const scene::Scene& scene, const std::string& text, const char* option);

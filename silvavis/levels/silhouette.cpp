@@ -34,16 +34,20 @@ double covered_area(const assets::Model& model, const V3& direction, float cell_
     least = {std::min(least.x, at[i].x), std::min(least.y, at[i].y)};
     most = {std::max(most.x, at[i].x), std::max(most.y, at[i].y)};
   }
-  const auto columns = static_cast<std::size_t>(most.x - least.x) + 2, rows = static_cast<std::size_t>(most.y - least.y) + 2;
+  const auto columns = static_cast<std::size_t>(most.x - least.x) + 2,
+             rows = static_cast<std::size_t>(most.y - least.y) + 2;
   std::vector<std::uint8_t> covered(columns * rows, 0);
   std::size_t count = 0;
   for (std::size_t t = 0; t < model.triangles.size(); ++t) {
-    const V2 a = at[model.triangles[t][0]] - least, b = at[model.triangles[t][1]] - least, c = at[model.triangles[t][2]] - least;
+    const V2 a = at[model.triangles[t][0]] - least, b = at[model.triangles[t][1]] - least,
+             c = at[model.triangles[t][2]] - least;
     const V2 e1 = b - a, e2 = c - a;
     const float area = e1.x * e2.y - e1.y * e2.x;
     if (area == 0) continue;
     // Cells whose centres, at whole numbers and a half, lie within the triangle's box.
-    const auto first = [](float x, float y, float z) { return static_cast<std::size_t>(std::max(0.0f, std::ceil(std::min({x, y, z}) - 0.5f))); };
+    const auto first = [](float x, float y, float z) {
+      return static_cast<std::size_t>(std::max(0.0f, std::ceil(std::min({x, y, z}) - 0.5f)));
+    };
     const auto last = [](float x, float y, float z) { return std::floor(std::max({x, y, z}) - 0.5f); };
     const float last_row = last(a.y, b.y, c.y), last_column = last(a.x, b.x, c.x);
     for (std::size_t row = first(a.y, b.y, c.y); static_cast<float>(row) <= last_row; ++row) {

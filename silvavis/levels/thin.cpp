@@ -3,6 +3,7 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -79,7 +80,8 @@ std::vector<Leaf> leaves_of(const Model& model) {
       leaves.emplace_back();
     }
     Leaf& leaf = leaves[number[root]];
-    const V3 &a = model.positions[model.triangles[t][0]], &b = model.positions[model.triangles[t][1]], &c = model.positions[model.triangles[t][2]];
+    const V3 &a = model.positions[model.triangles[t][0]], &b = model.positions[model.triangles[t][1]],
+             &c = model.positions[model.triangles[t][2]];
     const float area = 0.5f * (b - a).cross(c - a).length();
     leaf.triangles.push_back(t);
     leaf.centre += (a + b + c) * (area / 3);
@@ -112,7 +114,8 @@ void add_wood(const Model& from, std::size_t target, Model& to) {
   for (std::size_t m = 0; m < by_material.size(); ++m) {
     auto& indices = by_material[m];
     if (indices.empty()) continue;
-    const std::size_t wanted = std::max<std::size_t>(4, indices.size() / 3 * target / std::max<std::size_t>(all, 1)) * 3;
+    const std::size_t wanted =
+        std::max<std::size_t>(4, indices.size() / 3 * target / std::max<std::size_t>(all, 1)) * 3;
     if (wanted < indices.size()) {
       std::vector<unsigned int> simpler(indices.size());
       std::size_t count = meshopt_simplify(simpler.data(), indices.data(), indices.size(), &from.positions[0].x,
@@ -164,7 +167,7 @@ struct Limits {
   }
 };
 
-void add_leaf(const Model& from, const Leaf& leaf, float enlarged, const Limits& limits, Model& to,
+void add_leaf(const Model& from, const Leaf& leaf, float across, float upward, const Limits& limits, Model& to,
               std::vector<std::uint32_t>& number) {
   for (const std::uint32_t t : leaf.triangles) {
     std::array<std::uint32_t, 3> corners;
@@ -172,7 +175,8 @@ void add_leaf(const Model& from, const Leaf& leaf, float enlarged, const Limits&
       const std::uint32_t old = from.triangles[t][c];
       if (number[old] == 0xFFFFFFFF) {
         number[old] = static_cast<std::uint32_t>(to.positions.size());
-        to.positions.push_back(limits.within(leaf.centre + (from.positions[old] - leaf.centre) * enlarged));
+        to.positions.push_back(
+            limits.within(leaf.centre + (from.positions[old] - leaf.centre) * V3(across, across, upward)));
         to.normals.push_back(from.normals[old]);
         to.uvs.push_back(from.uvs[old]);
       }
@@ -183,12 +187,19 @@ void add_leaf(const Model& from, const Leaf& leaf, float enlarged, const Limits&
   }
 }
 
-// The views that must keep their covered area: four sides, a little from above, and straight down.
-double mean_area(const Model& model, float cell_m) {
-  const V3 views[] = {V3(1, 0.1f, -0.3f).normalized(), V3(-0.1f, 1, -0.3f).normalized(), V3(-0.7f, -0.7f, -0.8f).normalized(), V3(0, 0, -1)};
+// Covered area from the sides, up to 35 degrees from above.
+double side_area(const Model& model, float cell_m) {
+  const V3 views[] = {V3(1, 0.1f, -0.15f).normalized(), V3(-0.1f, 1, -0.4f).normalized(),
+                      V3(-0.7f, -0.7f, -0.65f).normalized()};
   double sum = 0;
   for (const V3& view : views) sum += covered_area(model, view, cell_m);
   return sum / std::size(views);
+}
+
+// And from above.
+double top_area(const Model& model, float cell_m) {
+  return 0.5 *
+         (covered_area(model, V3(0, 0, -1), cell_m) + covered_area(model, V3(0.3f, -0.4f, -1).normalized(), cell_m));
 }
 
 }  // namespace
@@ -197,7 +208,8 @@ Thinned thinned(const Model& model, double share) {
   const std::vector<Leaf> leaves = leaves_of(model);
   std::size_t leaf_triangles = 0;
   for (const Leaf& leaf : leaves) leaf_triangles += leaf.triangles.size();
-  const auto wood_target = static_cast<std::size_t>(static_cast<double>(model.triangles.size() - leaf_triangles) * share);
+  const auto wood_target =
+      static_cast<std::size_t>(static_cast<double>(model.triangles.size() - leaf_triangles) * share);
 
   Model bare;
   bare.name = model.name;
@@ -206,35 +218,35 @@ Thinned thinned(const Model& model, double share) {
   add_wood(model, wood_target, bare);
   const auto kept = static_cast<std::size_t>(std::max(4.0, std::ceil(static_cast<double>(leaves.size()) * share)));
   const Limits limits(model);
-  const auto with_leaves = [&](float enlarged) {
+  const auto with_leaves = [&](float across, float upward) {
     Model out = bare;
     std::vector<std::uint32_t> number(model.positions.size(), 0xFFFFFFFF);
     for (std::size_t i = 0; i < std::min(kept, leaves.size()); ++i) {
       // The middle of each even part of the curve.
-      add_leaf(model, leaves[(2 * i + 1) * leaves.size() / (2 * std::min(kept, leaves.size()))], enlarged, limits, out, number);
+      add_leaf(model, leaves[(2 * i + 1) * leaves.size() / (2 * std::min(kept, leaves.size()))], across, upward, limits,
+               out, number);
     }
     return out;
   };
-  float enlarged = static_cast<float>(1 / std::sqrt(share));
   if (leaves.empty()) return {std::move(bare), 1};
 
-  float reach = 0.01f;
-  for (const V3& p : model.positions) reach = std::max({reach, std::abs(p.x), std::abs(p.y), 0.5f * std::abs(p.z)});
-  const float cell_m = reach / 110;
-  const double wanted = mean_area(model, cell_m);
-  // Regula falsi on the logarithm; four steps bring it to the percent.
-  float low = 0.4f * enlarged, high = 1.25f * enlarged;
+  const float cell_m = std::max({limits.reach, 0.5f * (limits.most_z - limits.least_z), 0.01f}) / 110;
+  const double side = side_area(model, cell_m), top = top_area(model, cell_m);
+  // The view from above tells how much wider leaves must be, the sides how much higher. Covered area grows a little less
+  // than with the square of a side, which the exponents leave room for.
+  auto across = static_cast<float>(0.9 / std::sqrt(share)), upward = across;
+  const float least = 0.3f * across, most = 1.6f * across;
   Model out;
-  for (int step = 0; step < 6; ++step) {
-    out = with_leaves(enlarged);
-    const double got = mean_area(out, cell_m);
-    if (std::abs(got / wanted - 1) < 0.004) break;
-    (got > wanted ? high : low) = enlarged;
-    // Covered area grows a little less than with the square of the side.
-    const auto next = static_cast<float>(static_cast<double>(enlarged) * std::pow(wanted / got, 0.62));
-    enlarged = next > low && next < high ? next : std::sqrt(low * high);
+  for (int step = 0; step < 9; ++step) {
+    out = with_leaves(across, upward);
+    const double side_ratio = side / side_area(out, cell_m), top_ratio = top / top_area(out, cell_m);
+    if (std::abs(side_ratio - 1) < 0.004 && std::abs(top_ratio - 1) < 0.004) break;
+    across = std::clamp(static_cast<float>(static_cast<double>(across) * std::pow(top_ratio, 0.7)), least, most);
+    upward = std::clamp(
+        static_cast<float>(static_cast<double>(upward) * std::pow(side_ratio, 1.3) / std::pow(top_ratio, 0.6)), least,
+        most);
   }
-  return {std::move(out), enlarged};
+  return {std::move(out), std::sqrt(across * upward)};
 }
 
 float leaf_size(const Model& model) {
@@ -242,7 +254,9 @@ float leaf_size(const Model& model) {
   for (const Leaf& leaf : leaves_of(model)) sizes.push_back(std::sqrt(leaf.area));
   if (sizes.empty()) {
     for (const auto& t : model.triangles)
-      sizes.push_back(std::sqrt(0.5f * (model.positions[t[1]] - model.positions[t[0]]).cross(model.positions[t[2]] - model.positions[t[0]]).length()));
+      sizes.push_back(std::sqrt(0.5f * (model.positions[t[1]] - model.positions[t[0]])
+                                           .cross(model.positions[t[2]] - model.positions[t[0]])
+                                           .length()));
   }
   std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2), sizes.end());
   return sizes[sizes.size() / 2];

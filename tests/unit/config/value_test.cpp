@@ -36,6 +36,16 @@ TEST(Value, SharesMayBePercentages) {
   EXPECT_NE(problem("120 %", ValueType::fraction), "");
 }
 
+TEST(Value, AnglesAndTimesHaveUnits) {
+  EXPECT_DOUBLE_EQ(number("55", ValueType::angle), 55);
+  EXPECT_DOUBLE_EQ(number("55 deg", ValueType::angle), 55);
+  EXPECT_DOUBLE_EQ(number("12 s", ValueType::duration), 12);
+  EXPECT_DOUBLE_EQ(number("2 min", ValueType::duration), 120);
+  EXPECT_DOUBLE_EQ(number("400ms", ValueType::duration), 0.4);
+  EXPECT_NE(problem("12 m", ValueType::duration), "");
+  EXPECT_NE(problem("1 rad", ValueType::angle), "");
+}
+
 TEST(Value, NumbersAreReadWholeOrNotAtAll) {
   for (const char* bad : {"", "x", "1x", "nan", "inf", "-inf", "1e999", "0x10", "1 2", "--1", "+1", "1e", "٣"}) {
     EXPECT_NE(problem(bad, ValueType::number), "") << bad;

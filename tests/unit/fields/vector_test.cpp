@@ -67,6 +67,20 @@ TEST(Vector, InsideAndAttribute) {
   EXPECT_EQ(at(load_fields(hundred, {code}).fields[0], 25.5, 25.5), 3);
 }
 
+// A stroke of 10 m with round ends: its area is known. Polygons stay as they are.
+TEST(Vector, LinesMayBeWide) {
+  const TemporaryFolder folder;
+  const std::string line = R"({"type":"LineString","coordinates":[[20,50],[80,50]]})";
+  auto field = local_field(folder, {feature(line), feature(square(10, 10, 30, 30))}, VectorMeasure::inside, 0.25);
+  field.line_width_m = 10;
+  const FieldSet set = load_fields(hundred, {field});
+  double area = 0;
+  for (const float value : set.fields[0].raster.values) area += static_cast<double>(value) * 0.25 * 0.25;
+  EXPECT_NEAR(area, 600 + 3.14159 * 25 + 400, 5);
+  EXPECT_EQ(at(set.fields[0], 50, 54.5), 1);
+  EXPECT_EQ(at(set.fields[0], 50, 55.5), 0);
+}
+
 TEST(Vector, Mistakes) {
   const TemporaryFolder folder;
   const std::vector<std::string> one = {feature(square(10, 10, 30, 30), R"("code":3,"name":"a")")};

@@ -16,17 +16,17 @@ namespace {
 using namespace test;
 using testing::HasSubstr;
 
-constexpr int flips = 2000;
+constexpr std::uint32_t flips = 2000;
 
 // Every truncation of the file, then copies with one to four bytes changed.
-void expect_to_survive_damage(
-    const Folder& folder, const std::string& name, const std::string& bytes,
-    const std::function<void(const fs::path&, const std::string&)>& try_one = expect_survival) {
+void expect_to_survive_damage(const Folder& folder, const std::string& name, const std::string& bytes,
+                              const std::function<void(const fs::path&, const std::string&)>& try_one = expect_survival,
+                              std::uint32_t rounds = flips) {
   for (std::size_t length = 0; length < bytes.size(); ++length) {
     try_one(folder.write(name, bytes.substr(0, length)), name + " cut at " + std::to_string(length));
     if (testing::Test::HasFatalFailure()) return;
   }
-  for (std::uint32_t round = 0; round < flips; ++round) {
+  for (std::uint32_t round = 0; round < rounds; ++round) {
     silvasim::base::Stream stream(20261122, silvasim::base::Purpose::selection, round);
     std::string damaged = bytes;
     const std::uint32_t count = 1 + stream.next_below(4);
@@ -151,20 +151,24 @@ TEST(Damage, Pictures) {
                    static_cast<std::uint8_t>(x * 20)};
     });
     const std::string bytes = read(folder.path() / name);
-    expect_to_survive_damage(folder, name, bytes, [](const fs::path& file, const std::string& what) {
-      std::vector<std::byte> memory;
-      for (const char c : read(file)) memory.push_back(static_cast<std::byte>(c));
-      for (const Picture& picture :
-           {Picture{file.filename().string(), file, {}}, Picture{file.filename().string(), {}, memory}}) {
-        try {
-          const Texture t = load_texture(picture, nullptr, {.most_px = 8, .alpha_cutoff = 0.5f});
-          ASSERT_LE(t.width, 8) << what;
-          ASSERT_EQ(t.rgba.size(), 4 * static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height)) << what;
-        } catch (const silvasim::base::Error& error) {
-          ASSERT_EQ(std::string(error.what()).find('\n'), std::string::npos) << what;
-        }
-      }
-    });
+    expect_to_survive_damage(
+        folder, name, bytes,
+        [](const fs::path& file, const std::string& what) {
+          std::vector<std::byte> memory;
+          for (const char c : read(file)) memory.push_back(static_cast<std::byte>(c));
+          for (const Picture& picture :
+               {Picture{file.filename().string(), file, {}}, Picture{file.filename().string(), {}, memory}}) {
+            try {
+              const Texture t = load_texture(picture, nullptr, {.most_px = 8, .alpha_cutoff = 0.5f});
+              ASSERT_LE(t.width, 8) << what;
+              ASSERT_EQ(t.rgba.size(), 4 * static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height))
+                  << what;
+            } catch (const silvasim::base::Error& error) {
+              ASSERT_EQ(std::string(error.what()).find('\n'), std::string::npos) << what;
+            }
+          }
+        },
+        400);
   }
 }
 

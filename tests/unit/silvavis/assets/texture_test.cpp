@@ -202,6 +202,7 @@ TEST(Texture, ClaimsAreRefusedBeforeMemoryIsTaken) {
   EXPECT_THAT(texture_error(folder.write("a.png", png_that_claims(60'000, 60'000))), HasSubstr("claims 60000 x 60000"));
   EXPECT_THAT(texture_error(folder.write("b.png", png_that_claims(16'384, 16'384))), HasSubstr("claims"));
   EXPECT_THAT(texture_error(folder.write("c.png", png_that_claims(16'385, 1))), HasSubstr("claims"));
+  EXPECT_THAT(texture_error(folder.write("g.png", png_that_claims(4'000, 4'000))), HasSubstr("bytes cannot hold"));
   EXPECT_NE(texture_error(folder.write("d.png", png_that_claims(0, 5))), "");
   EXPECT_NE(texture_error(folder.write("e.png", png_that_claims(0x7FFFFFFF, 0x7FFFFFFF))), "");
   EXPECT_NE(texture_error(folder.write("f.png", png_that_claims(100, 100))), "");  // its pixels are missing

@@ -39,7 +39,8 @@ TEST(Silhouette, LeavesHolesOut) {
   texture.width = texture.height = 4;
   texture.has_alpha = true;
   for (int y = 0; y < 4; ++y)
-    for (int x = 0; x < 4; ++x) texture.rgba.insert(texture.rgba.end(), {9, 9, 9, static_cast<std::uint8_t>(x < 1 ? 0 : 255)});
+    for (int x = 0; x < 4; ++x)
+      texture.rgba.insert(texture.rgba.end(), {9, 9, 9, static_cast<std::uint8_t>(x < 1 ? 0 : 255)});
   model.textures.push_back(texture);
   model.materials[0].texture = 0;
   model.materials[0].alpha_cutoff = 0.5f;
@@ -47,7 +48,8 @@ TEST(Silhouette, LeavesHolesOut) {
 }
 
 TEST(Thinned, KeepsWhatTheCrownCovers) {
-  for (const char* name : {"Fagus sylvatica", "Picea abies", "Betula pendula", "Pinus sylvestris", "Corylus avellana"}) {
+  for (const char* name :
+       {"Fagus sylvatica", "Picea abies", "Betula pendula", "Pinus sylvestris", "Corylus avellana"}) {
     const assets::Model model = assets::grown::grow(assets::grown::form_of(name, 24, 4), 24, 4, 5, {40000});
     const V3 views[] = {V3(0.8f, 0.6f, 0), V3(0, -1, -0.5f).normalized(), V3(0.1f, 0, -1).normalized()};
     for (const double share : {1.0 / 8, 1.0 / 64}) {

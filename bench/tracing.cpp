@@ -1,0 +1,206 @@
+// The nested trees beside one flat structure of Embree: memory, build and time, on the paper's scenes.
+//
+// tracing [--threads N] [--runs N] [--triangles N] [--scene NAME]: prints Markdown. Rays from the eye only, 1920 x 1080, one a pixel, as in the
+// paper's Table 2 ("without shadows"); full models, and for the nested trees their simpler levels too. Each backend works in a
+// process of its own, so that its peak of memory is its own; the two see the same rays of the same scene.
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "silvasim/base/error.h"
+#include "silvasim/base/machine.h"
+#include "silvasim/base/parallel.h"
+#include "silvasim/config/load.h"
+#include "silvasim/ecosystem/file.h"
+#include "silvasim/pipeline.h"
+#include "silvavis/accel/embree.h"
+#include "silvavis/accel/nested.h"
+#include "silvavis/flora.h"
+#include "silvavis/shade/camera.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace silvavis;
+
+constexpr int width = 1920, height = 1080;
+constexpr std::array<const char*, 3> views = {"bird's eye", "flight", "close"};
+
+struct Figures {
+  double models_s = 0, scene_s = 0, build_s = 0;
+  double plant_mb = 0, model_mb = 0, peak_mb = 0;
+  std::array<double, 3> seconds{};
+  std::array<std::uint64_t, 3> check{};  // a sum over what the pixels see
+  std::uint64_t plants = 0;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point& mark) {
+  const auto now = std::chrono::steady_clock::now();
+  const double seconds = std::chrono::duration<double>(now - mark).count();
+  mark = now;
+  return seconds;
+}
+
+shade::Camera camera_of(const scene::Scene& scene, std::size_t view) {
+  const double side = scene.extent.width();
+  const auto ground = [&](double x, double y) { return scene::ground_at(scene.ground, x, y).height_m; };
+  shade::Camera camera;
+  camera.width = width;
+  camera.height = height;
+  if (view == 0) {
+    camera.eye = {0, -0.9 * side, 0.75 * side};
+    camera.look_at = {0, 0, ground(0, 0)};
+    camera.fov_deg = 50;
+  } else if (view == 1) {
+    camera.eye = {-0.3 * side, -0.3 * side, ground(-0.3 * side, -0.3 * side) + 400};
+    camera.look_at = {0.1 * side, 0.1 * side, ground(0, 0)};
+    camera.fov_deg = 60;
+  } else {
+    const double x = 0.02 * side, y = 0.01 * side;
+    camera.eye = {x, y, ground(x, y) + 12};
+    camera.look_at = {x + 100, y + 60, ground(x + 100, y + 60) + 10};
+    camera.fov_deg = 60;
+  }
+  return camera;
+}
+
+std::uint64_t trace(const scene::Scene& scene, const accel::Tracer& tracer, std::size_t view, bool lod) {
+  const shade::Lens lens = shade::lens_of(camera_of(scene, view));
+  constexpr int across = 16, down = 8;
+  std::vector<std::uint64_t> sums(static_cast<std::size_t>(width / across) * (height / down));
+  silvasim::base::parallel_for(sums.size(), [&](std::size_t i) {
+    std::array<accel::Ray, across * down> rays;
+    std::array<accel::Hit, across * down> hits;
+    const int left = static_cast<int>(i) % (width / across) * across,
+              top = static_cast<int>(i) / (width / across) * down;
+    for (int k = 0; k < across * down; ++k) {
+      const shade::CameraRay ray = shade::ray_through(lens, left + k % across + 0.5, top + k / across + 0.5);
+      rays[static_cast<std::size_t>(k)].origin = ray.origin;
+      rays[static_cast<std::size_t>(k)].direction = ray.direction;
+      if (lod) rays[static_cast<std::size_t>(k)].spread = static_cast<float>(lens.footprint_rad);
+    }
+    tracer.nearest(rays, hits);
+    for (const accel::Hit& hit : hits) {
+      if (hit.surface == accel::Surface::plant)
+        sums[i] += 1 + static_cast<std::uint64_t>(hit.site_slot + 131 * hit.column + 17 * hit.row);
+    }
+  });
+  std::uint64_t sum = 0;
+  for (const std::uint64_t part : sums) sum += part;
+  return sum;
+}
+
+Figures measure(const silvasim::ecosystem::Ecosystem& ecosystem, const std::string& way, int runs, int triangles) {
+  Figures figures;
+  auto mark = std::chrono::steady_clock::now();
+  FloraOptions options;
+  options.triangles = triangles;
+  options.variants = 1;
+  options.levels = way == "nested, levels";
+  Flora flora = models_of(ecosystem, options);
+  figures.models_s = seconds_since(mark);
+  const scene::Scene scene = scene::make_scene(ecosystem, flora.models);
+  figures.scene_s = seconds_since(mark);
+  const auto tracer = way == "Embree" ? accel::make_embree(scene) : accel::make_nested(scene);
+  figures.build_s = seconds_since(mark);
+  figures.plants = scene.plants;
+  figures.plant_mb = static_cast<double>(scene.plant_bytes()) / 1e6;
+  for (const auto& model : scene.models) figures.model_mb += static_cast<double>(model->bytes()) / 1e6;
+  if (way == "Embree") figures.plant_mb = static_cast<double>(tracer->bytes()) / 1e6;
+  for (std::size_t view = 0; view < views.size(); ++view) {
+    std::vector<double> times;
+    for (int run = 0; run < runs; ++run) {
+      seconds_since(mark);
+      figures.check[view] = trace(scene, *tracer, view, options.levels);
+      times.push_back(seconds_since(mark));
+    }
+    std::sort(times.begin(), times.end());
+    figures.seconds[view] = times[times.size() / 2];
+  }
+  figures.peak_mb = static_cast<double>(silvasim::base::peak_rss_bytes()) / 1e6;
+  return figures;
+}
+
+// In a child process, whose figures come back through a pipe.
+Figures measure_apart(const fs::path& file, const std::string& way, int threads, int runs, int triangles) {
+  int ends[2];
+  if (pipe(ends) != 0) throw silvasim::base::Error("no pipe");
+  const pid_t child = fork();
+  if (child == 0) {
+    const silvasim::base::ThreadLimit limit(threads);
+    const Figures figures = measure(silvasim::ecosystem::read(file), way, runs, triangles);
+    const bool written = write(ends[1], &figures, sizeof figures) == static_cast<ssize_t>(sizeof figures);
+    _exit(written ? 0 : 1);
+  }
+  close(ends[1]);
+  Figures figures;
+  const bool got = read(ends[0], &figures, sizeof figures) == static_cast<ssize_t>(sizeof figures);
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (!got || status != 0) throw silvasim::base::Error(way + " failed");
+  return figures;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int threads = 0, runs = 3, triangles = 160000;
+  std::string only;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    if (std::strcmp(argv[i], "--threads") == 0) threads = std::atoi(argv[i + 1]);
+    if (std::strcmp(argv[i], "--runs") == 0) runs = std::max(1, std::atoi(argv[i + 1]));
+    if (std::strcmp(argv[i], "--triangles") == 0) triangles = std::atoi(argv[i + 1]);
+    if (std::strcmp(argv[i], "--scene") == 0) only = argv[i + 1];
+  }
+  fmt::print("Seconds a frame of {} x {}, one ray a pixel, median of {} runs; models of {} triangles.\n\n", width,
+             height, runs, triangles);
+  fmt::print("| scene | plants | way | models s | build s | plants MB | peak MB |");
+  for (const char* view : views) fmt::print(" {} s |", view);
+  fmt::print("\n|---|---|---|---|---|---|---|---|---|---|\n");
+  const fs::path folder = fs::path(SILVA_SOURCE_DIR) / "bench" / "scenes";
+  for (const char* name : {"unisb-3km", "puget-20km", "puget-40km"}) {
+    if (!only.empty() && only != name) continue;
+    const fs::path file = fs::temp_directory_path() / (std::string("silva-tracing-") + name + ".silva");
+    try {
+      // Grown in a child too, so that no thread lives when the others are forked.
+      const pid_t child = fork();
+      if (child == 0) {
+        int code = 0;
+        try {
+          const auto scenario = silvasim::config::load_scenario(folder / (std::string(name) + ".xml"), std::nullopt,
+                                                                silvasim::evaluators::dialect());
+          silvasim::ecosystem::write(silvasim::simulate(scenario).ecosystem, file);
+        } catch (const silvasim::base::Error& error) {
+          fmt::print(stderr, "{}: {}\n", name, error.what());
+          code = 1;
+        }
+        _exit(code);
+      }
+      int status = 0;
+      waitpid(child, &status, 0);
+      if (status != 0) continue;
+      for (const char* way : {"Embree", "nested", "nested, levels"}) {
+        const Figures f = measure_apart(file, way, threads, runs, triangles);
+        fmt::print("| {} | {} | {} | {:.2f} | {:.3f} | {:.1f} | {:.0f} |", name, f.plants, way, f.models_s,
+                   f.scene_s + f.build_s, f.plant_mb, f.peak_mb);
+        for (const double seconds : f.seconds) fmt::print(" {:.2f} |", seconds);
+        fmt::print("\n");
+        std::fflush(stdout);
+      }
+    } catch (const silvasim::base::Error& error) {
+      fmt::print("| {} | skipped: {} |\n", name, error.what());
+    }
+    fs::remove(file);
+  }
+}

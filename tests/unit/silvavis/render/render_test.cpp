@@ -1,0 +1,142 @@
+#include "silvavis/render.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../accel/made_forest.h"
+#include "silvasim/base/error.h"
+#include "silvasim/base/parallel.h"
+#include "silvavis/accel/embree.h"
+#include "silvavis/accel/nested.h"
+#include "silvavis/flora.h"
+#include "silvavis/image/compare.h"
+
+namespace silvavis::testing {
+
+namespace {
+
+// A wood of grown trees of two species, with their levels.
+scene::Scene grown_wood(int columns, int triangles) {
+  MadeForest made;
+  made.columns = made.rows = columns;
+  made.shrubs = false;
+  made.hills_m = 15;
+  auto ecosystem = made_ecosystem(made);
+  ecosystem.layers[0].species[0].name = "Fagus sylvatica";
+  ecosystem.layers[0].species[1].name = "Picea abies";
+  FloraOptions options;
+  options.triangles = triangles;
+  options.variants = 1;
+  const Flora flora = models_of(ecosystem, options);
+  return scene::make_scene(std::move(ecosystem), flora.models);
+}
+
+RenderOptions small_picture(const scene::Scene& scene, double away_m) {
+  RenderOptions options;
+  options.camera.eye = {0, -away_m, 320 + 0.45 * away_m};
+  options.camera.look_at = {0, 0, 305};
+  options.camera.fov_deg = std::min(60.0, 1.1 * scene.extent.width() / away_m * 57.3);
+  options.camera.width = 160;
+  options.camera.height = 90;
+  options.samples = 4;
+  options.error = 0;
+  return options;
+}
+
+}  // namespace
+
+TEST(Render, IsTheSameOnAnyNumberOfThreads) {
+  const scene::Scene scene = made_forest({});
+  const auto tracer = accel::make_nested(scene);
+  const Light light{shade::SkyOptions{}};
+  RenderOptions options = small_picture(scene, 250);
+  options.samples = 32;
+  options.error = 0.03;
+  options.aovs = true;
+  std::vector<image::Frame> frames;
+  for (const int threads : {1, 2, 5}) {
+    const silvasim::base::ThreadLimit limit(threads);
+    frames.push_back(render(scene, *tracer, light, {}, options));
+  }
+  for (const image::Frame& frame : frames) {
+    EXPECT_EQ(frame.colour, frames[0].colour);
+    EXPECT_EQ(frame.depth, frames[0].depth);
+    EXPECT_EQ(frame.plants, frames[0].plants);
+  }
+  for (const float value : frames[0].colour.pixels) {
+    ASSERT_TRUE(std::isfinite(value));
+    ASSERT_GE(value, 0);
+  }
+}
+
+TEST(Render, BothBackendsShowTheSamePlantInEveryPixel) {
+  const scene::Scene scene = grown_wood(8, 8000);
+  const Light light{shade::SkyOptions{}};
+  RenderOptions options = small_picture(scene, 400);
+  options.camera.width = 640;
+  options.camera.height = 360;
+  options.samples = 1;
+  options.aovs = true;
+  options.lod = false;
+  const image::Frame nested = render(scene, *accel::make_nested(scene), light, {}, options);
+  const image::Frame exact = render(scene, *accel::make_embree(scene, accel::Flat::exact), light, {}, options);
+  std::size_t plants = 0, other = 0, deeper = 0;
+  for (std::size_t i = 0; i < nested.plants.size(); ++i) {
+    plants += nested.plants[i] != image::no_plant;
+    if (nested.plants[i] != exact.plants[i] || nested.species[i] != exact.species[i]) {
+      ++other;
+    } else if (std::isfinite(nested.depth.pixels[i]) &&
+               std::abs(nested.depth.pixels[i] - exact.depth.pixels[i]) > 0.01f) {
+      ++deeper;
+    }
+  }
+  EXPECT_GT(plants, nested.plants.size() / 4);
+  // At most one pixel in 100,000: of 230,400.
+  EXPECT_LE(other, 2u);
+  EXPECT_LE(deeper, 2u);
+}
+
+TEST(Render, LevelsAreAsBrightAsFullModels) {
+  const scene::Scene scene = grown_wood(10, 20000);
+  const auto tracer = accel::make_nested(scene);
+  shade::SkyOptions sky;
+  sky.sun_direction = V3(0.5f, -0.4f, 0.75f).normalized();
+  const Light light{sky};
+  // At 1 km a pixel of this picture is some metres wide, at 4 km wider than a crown.
+  for (const double away : {300.0, 1000.0, 4000.0}) {
+    RenderOptions options = small_picture(scene, away);
+    options.samples = 16;
+    options.lod = false;
+    const image::Frame full = render(scene, *tracer, light, {}, options);
+    options.lod = true;
+    const image::Frame levels = render(scene, *tracer, light, {}, options);
+    const auto difference = image::compare(levels.colour, full.colour);
+    EXPECT_NEAR(difference.brightness_ratio, 1, 0.012) << "at " << away << " m";
+    EXPECT_NE(levels.colour, full.colour) << "no simpler level was used at " << away << " m";
+  }
+}
+
+TEST(Render, ASampleMoreChangesLittleAndErrorsEndPixelsEarly) {
+  const scene::Scene scene = made_forest({});
+  const auto tracer = accel::make_nested(scene);
+  const Light light{shade::SkyOptions{}};
+  RenderOptions options = small_picture(scene, 250);
+  options.samples = 64;
+  RenderStatistics all, adaptive;
+  const image::Frame reference = render(scene, *tracer, light, {}, options, {}, &all);
+  options.error = 0.05;
+  const image::Frame early = render(scene, *tracer, light, {}, options, {}, &adaptive);
+  EXPECT_LT(adaptive.eye_rays, all.eye_rays * 3 / 4);
+  EXPECT_NEAR(image::compare(early.colour, reference.colour).brightness_ratio, 1, 0.01);
+}
+
+TEST(Render, StopsWhenAsked) {
+  const scene::Scene scene = made_forest({});
+  const auto tracer = accel::make_nested(scene);
+  const Light light{shade::SkyOptions{}};
+  const auto stop = [](std::string_view, double) { return false; };
+  EXPECT_THROW(render(scene, *tracer, light, {}, small_picture(scene, 250), stop), silvasim::base::Cancelled);
+}
+
+}  // namespace silvavis::testing
