@@ -31,7 +31,7 @@ struct Task {
 // A shrub of a metre shows no more than a tree of thirty: triangles go with the height's root.
 int triangles_for(const FloraOptions& options, double height_m) {
   const double share = std::clamp(std::sqrt(height_m / 25.0), 0.1, 1.0);
-  return std::max(400, static_cast<int>(options.triangles * share));
+  return std::max(1000, static_cast<int>(options.triangles * share));
 }
 
 assets::Model model_for(const Task& task, const ecosystem::Species& species, const FloraOptions& options,

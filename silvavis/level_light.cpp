@@ -63,7 +63,7 @@ const std::vector<Lamp>& sun_and_sky() {
 }  // namespace
 
 double lit_brightness(const std::shared_ptr<const scene::PlantModel>& model) {
-  constexpr int side_px = 88;
+  constexpr int side_px = 60;
   const scene::Scene scene = small_wood(model);
   const auto tracer = accel::make_nested(scene);
   const scene::PlantLayer& layer = scene.layers[0];

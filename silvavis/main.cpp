@@ -34,7 +34,7 @@ void add_stage(CLI::App& command, StageOptions& o) {
                      "A species' model: \"Picea abies=spruce.glb\", or =grown, or =none (may be repeated)");
   command
       .add_option("--triangles", o.triangles, "Triangles of a grown tree; shrubs and herbs have fewer (default: 40000)")
-      ->check(CLI::Range(400, 2000000));
+      ->check(CLI::Range(1000, 2000000));
   command.add_option("--variants", o.variants, "Grown models a species (default: 2)")->check(CLI::Range(1, 64));
   command.add_option("--backend", o.backend, "nested: Silva's trees; embree: one flat structure, for comparison")
       ->check(CLI::IsMember({"nested", "embree"}));

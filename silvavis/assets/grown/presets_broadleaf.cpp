@@ -9,7 +9,7 @@ Form broadleaf() {
   f.crown_base = 0.30f;
   f.outline = {0.45f, 0.9f, 1.0f, 0.95f, 0.75f, 0.4f};
   f.leader = 0.6f;
-  f.stem_crook = 0.22f;
+  f.stem_crook = 0.15f;
   f.branches[0] = {.count = 56,
                    .angle_low_deg = 68,
                    .angle_high_deg = 28,
@@ -67,7 +67,7 @@ Form oak() {
   f.ragged = 0.2f;
   f.leader = 0.45f;
   f.stem_radius_share = 0.012f;
-  f.stem_crook = 0.4f;
+  f.stem_crook = 0.28f;
   f.branches[0] = {.count = 32,
                    .angle_low_deg = 78,
                    .angle_high_deg = 35,
@@ -201,7 +201,7 @@ Form hornbeam() {
   f.crown_base = 0.22f;
   f.outline = {0.5f, 0.85f, 1.0f, 0.95f, 0.75f, 0.55f};
   f.leader = 0.4f;
-  f.stem_crook = 0.4f;
+  f.stem_crook = 0.28f;
   f.branches[0].angle_low_deg = 55;
   f.branches[0].angle_high_deg = 20;
   f.branches[0].crook = 0.4f;
@@ -381,7 +381,7 @@ Form willow() {
   f.ragged = 0.25f;
   f.leader = 0.3f;
   f.stem_radius_share = 0.0125f;
-  f.stem_crook = 0.45f;
+  f.stem_crook = 0.3f;
   f.branches[0] = {.count = 22,
                    .angle_low_deg = 60,
                    .angle_high_deg = 25,
