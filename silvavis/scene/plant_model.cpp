@@ -20,7 +20,10 @@ Cutout cutout_of(const assets::Material& material, const std::vector<assets::Tex
   cutout.holes.assign((std::size_t{cutout.width} * cutout.height + 63) / 64, 0);
   const auto alpha = [&](int i, int j) {
     const int column = (i + texture.width) % texture.width, row = (j + texture.height) % texture.height;
-    return static_cast<float>(texture.rgba[(static_cast<std::size_t>(row) * static_cast<std::size_t>(texture.width) + static_cast<std::size_t>(column)) * 4 + 3]);
+    return static_cast<float>(texture.rgba[(static_cast<std::size_t>(row) * static_cast<std::size_t>(texture.width) +
+                                            static_cast<std::size_t>(column)) *
+                                               4 +
+                                           3]);
   };
   for (std::uint32_t y = 0; y < cutout.height; ++y) {
     for (std::uint32_t x = 0; x < cutout.width; ++x) {
@@ -88,7 +91,8 @@ std::shared_ptr<const Looks> looks_of(const assets::Model& model) {
   auto looks = std::make_shared<Looks>();
   looks->materials = model.materials;
   looks->textures = model.textures;
-  for (const assets::Material& material : model.materials) looks->cutouts.push_back(cutout_of(material, model.textures));
+  for (const assets::Material& material : model.materials)
+    looks->cutouts.push_back(cutout_of(material, model.textures));
   return looks;
 }
 

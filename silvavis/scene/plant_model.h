@@ -29,7 +29,8 @@ inline constexpr int hull_size = 8;   // cylinders of a hull
 // have three equal corners.
 struct alignas(64) TriangleBlock {
   std::array<std::array<std::array<std::uint16_t, block_size>, 3>, 3> corners;  // [corner][axis][lane]
-  std::array<std::array<std::array<std::uint16_t, block_size>, 2>, 3> uv;       // [corner][axis][lane]: uv_origin + uv_step * uv
+  std::array<std::array<std::array<std::uint16_t, block_size>, 2>, 3>
+      uv;  // [corner][axis][lane]: uv_origin + uv_step * uv
   std::array<std::uint16_t, block_size> materials;
 };
 static_assert(sizeof(TriangleBlock) == 256);
@@ -105,7 +106,8 @@ struct PlantModel {
   V2 uv_of(std::uint32_t slot, int corner) const {
     const auto& at = blocks[slot / block_size].uv[static_cast<std::size_t>(corner)];
     const std::uint32_t lane = slot % block_size;
-    return {uv_origin.x + uv_step.x * static_cast<float>(at[0][lane]), uv_origin.y + uv_step.y * static_cast<float>(at[1][lane])};
+    return {uv_origin.x + uv_step.x * static_cast<float>(at[0][lane]),
+            uv_origin.y + uv_step.y * static_cast<float>(at[1][lane])};
   }
   std::uint16_t material_of(std::uint32_t slot) const { return blocks[slot / block_size].materials[slot % block_size]; }
   std::size_t bytes() const {
@@ -137,9 +139,11 @@ inline bool is_hole(const PlantModel& model, std::uint32_t slot, float u, float 
     return static_cast<float>(block.uv[0][axis][lane]) * (1 - u - v) + static_cast<float>(block.uv[1][axis][lane]) * u +
            static_cast<float>(block.uv[2][axis][lane]) * v;
   };
-  const float x = model.uv_origin.x + model.uv_step.x * between(0), y = model.uv_origin.y + model.uv_step.y * between(1);
+  const float x = model.uv_origin.x + model.uv_step.x * between(0),
+              y = model.uv_origin.y + model.uv_step.y * between(1);
   // Textures repeat. In whole numbers from here on: 2^20 parts of a texture.
-  const auto column = (static_cast<std::uint64_t>(static_cast<std::int64_t>(x * 0x1p20f) & 0xFFFFF) * cutout.width) >> 20;
+  const auto column =
+      (static_cast<std::uint64_t>(static_cast<std::int64_t>(x * 0x1p20f) & 0xFFFFF) * cutout.width) >> 20;
   const auto row = (static_cast<std::uint64_t>(static_cast<std::int64_t>(y * 0x1p20f) & 0xFFFFF) * cutout.height) >> 20;
   const std::uint64_t bit = row * cutout.width + column;
   return cutout.holes[bit >> 6] >> (bit & 63) & 1;

@@ -173,8 +173,10 @@ void make_land(Scene& scene) {
   LandGrid& land = scene.land;
   land.first_column = std::min(0, static_cast<int>(std::floor((ground.west - west) / side)));
   land.first_row = std::min(0, static_cast<int>(std::floor((ground.south - south) / side)));
-  const int columns = std::max(layer ? layer->columns : 0, static_cast<int>(std::ceil((ground.east() - west) / side))) - land.first_column;
-  const int rows = std::max(layer ? layer->rows : 0, static_cast<int>(std::ceil((ground.north() - south) / side))) - land.first_row;
+  const int columns = std::max(layer ? layer->columns : 0, static_cast<int>(std::ceil((ground.east() - west) / side))) -
+                      land.first_column;
+  const int rows =
+      std::max(layer ? layer->rows : 0, static_cast<int>(std::ceil((ground.north() - south) / side))) - land.first_row;
   const Pyramid& below = ground.pyramid;
   HeightRange whole{below.origin_m, below.origin_m + 65535 * below.step_m};
   if (layer) {
