@@ -57,8 +57,10 @@ std::shared_ptr<const scene::PlantModel> packed_with_levels(const assets::Model&
   std::vector<std::shared_ptr<const scene::PlantModel>> coarser;
   for (double share = 1.0 / 8; static_cast<double>(model.triangles.size()) * share > 60; share /= 8) {
     const levels::Thinned simpler = levels::thinned(model, share);
+    // Wood alone may vanish.
+    if (simpler.model.triangles.size() < 8) break;
     auto level = std::make_shared<scene::PlantModel>(accel::pack(simpler.model, full->looks));
-    level->leaf_m = full->leaf_m * std::max(simpler.enlarged, 1.5f);
+    level->leaf_m = full->leaf_m * std::max(simpler.enlarged, static_cast<float>(0.7 / std::sqrt(share)));
     const double own = lit_brightness(level);
     if (own > 0) level->tint = static_cast<float>(std::clamp(brightness / own, 0.5, 2.0));
     coarser.push_back(std::move(level));

@@ -117,8 +117,8 @@ HWY_INLINE bool hit_model(const scene::PlantModel& model, const V3& o, const V3&
   float from = least, to = hit.t;
   if (!cross_hull(model.hull, o, d, from, to)) return false;
 
-  // Each level leaves at most fifteen behind; pack() bounds the depth.
-  std::uint64_t stack[16 * 15 + 1];
+  // Each level leaves at most fifteen behind.
+  std::uint64_t stack[scene::most_depth * (scene::node_size - 1) + 1];
   int size = 0;
   stack[size++] = waiting(0, 0, false);
   bool found = false;

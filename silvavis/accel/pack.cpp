@@ -215,7 +215,7 @@ class Packer {
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
     arguments.maxBranchingFactor = scene::node_size;
-    arguments.maxDepth = 64;
+    arguments.maxDepth = scene::most_depth;
     arguments.sahBlockSize = scene::block_size;
     arguments.minLeafSize = scene::block_size;
     arguments.maxLeafSize = scene::block_size;
@@ -239,9 +239,9 @@ class Packer {
       above.count = 1;
       above.children[0] = const_cast<Built*>(root);
       above.bounds[0] = {to_.least, to_.most};
-      fill(0, above);
+      fill(0, above, 0);
     } else {
-      fill(0, *static_cast<const BuiltNode*>(root));
+      fill(0, *static_cast<const BuiltNode*>(root), 0);
     }
     rtcReleaseBVH(bvh);
     to_.nodes.shrink_to_fit();
@@ -249,7 +249,10 @@ class Packer {
     to_.normals.shrink_to_fit();
   }
 
-  void fill(std::size_t index, const BuiltNode& built) {
+  void fill(std::size_t index, const BuiltNode& built, int depth) {
+    if (depth >= scene::most_depth)
+      throw silvasim::base::Error("the triangles of model \"" + from_.name + "\" lie so that no tree of " +
+                                  std::to_string(scene::most_depth) + " levels holds them");
     scene::TreeNode node;
     Bounds box;
     for (std::uint32_t c = 0; c < built.count; ++c) box.add(built.bounds[c]);
@@ -289,7 +292,7 @@ class Packer {
     to_.nodes[index] = node;
     std::uint32_t next = node.first_node;
     for (std::uint32_t c = 0; c < built.count; ++c)
-      if (!built.children[c]->leaf) fill(next++, *static_cast<const BuiltNode*>(built.children[c]));
+      if (!built.children[c]->leaf) fill(next++, *static_cast<const BuiltNode*>(built.children[c]), depth + 1);
   }
 
   void add_block(const BuiltLeaf& leaf) {

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -21,9 +22,10 @@
 
 namespace silvavis::scene {
 
-inline constexpr int block_size = 8;  // triangles in a leaf
-inline constexpr int node_size = 16;  // children of a node
-inline constexpr int hull_size = 8;   // cylinders of a hull
+inline constexpr int block_size = 8;   // triangles in a leaf
+inline constexpr int node_size = 16;   // children of a node
+inline constexpr int most_depth = 32;  // levels of a model's tree; the walk's stack has room for them
+inline constexpr int hull_size = 8;    // cylinders of a hull
 
 // Eight triangles, lane by lane, with all that tells whether a ray meets them: four lines of a cache side by side. Empty lanes
 // have three equal corners.
@@ -142,9 +144,8 @@ inline bool is_hole(const PlantModel& model, std::uint32_t slot, float u, float 
   const float x = model.uv_origin.x + model.uv_step.x * between(0),
               y = model.uv_origin.y + model.uv_step.y * between(1);
   // Textures repeat. In whole numbers from here on: 2^20 parts of a texture.
-  const auto column =
-      (static_cast<std::uint64_t>(static_cast<std::int64_t>(x * 0x1p20f) & 0xFFFFF) * cutout.width) >> 20;
-  const auto row = (static_cast<std::uint64_t>(static_cast<std::int64_t>(y * 0x1p20f) & 0xFFFFF) * cutout.height) >> 20;
+  const auto column = ((static_cast<std::uint64_t>((x - std::floor(x)) * 0x1p20f) & 0xFFFFF) * cutout.width) >> 20;
+  const auto row = ((static_cast<std::uint64_t>((y - std::floor(y)) * 0x1p20f) & 0xFFFFF) * cutout.height) >> 20;
   const std::uint64_t bit = row * cutout.width + column;
   return cutout.holes[bit >> 6] >> (bit & 63) & 1;
 }

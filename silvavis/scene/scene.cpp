@@ -237,6 +237,9 @@ Scene make_scene(ecosystem::Ecosystem from, const std::vector<std::vector<Specie
                   extent.north - scene.origin.y};
   scene.ground = make_ground(from.terrain, extent, scene.origin);
   from.terrain = {};
+  if (from.layers.size() > 255)
+    throw silvasim::base::Error("the ecosystem has " + std::to_string(from.layers.size()) +
+                                " layers; pictures hold at most 255");
   std::uint32_t first_species = 0;
   std::uint64_t first_plant = 0;
   for (std::size_t k = 0; k < from.layers.size(); ++k) {
