@@ -13,6 +13,7 @@
 #include "silvavis/assets/fit.h"
 #include "silvavis/assets/grown/grow.h"
 #include "silvavis/assets/load.h"
+#include "silvavis/impostor_of.h"
 #include "silvavis/level_light.h"
 #include "silvavis/levels/thin.h"
 
@@ -54,8 +55,10 @@ std::shared_ptr<const scene::PlantModel> packed_with_levels(const assets::Model&
   full->leaf_m = levels::leaf_size(model);
   if (!levels) return full;
   const double brightness = lit_brightness(full);
+  auto impostor = std::make_shared<scene::Impostor>(impostor_of(*full));
   std::vector<std::shared_ptr<const scene::PlantModel>> coarser;
   for (double share = 1.0 / 8; static_cast<double>(model.triangles.size()) * share > 60; share /= 8) {
+    if (full->leaf_m * static_cast<float>(0.7 / std::sqrt(share)) > impostor->texel_m) break;
     const levels::Thinned simpler = levels::thinned(model, share);
     // Wood alone may vanish.
     if (simpler.model.triangles.size() < 8) break;
@@ -66,6 +69,9 @@ std::shared_ptr<const scene::PlantModel> packed_with_levels(const assets::Model&
     coarser.push_back(std::move(level));
   }
   full->coarser = std::move(coarser);
+  full->impostor = impostor;
+  const double own = lit_brightness(full, 1e6f);
+  if (own > 0) impostor->tint = static_cast<float>(std::clamp(brightness / own, 0.5, 2.0));
   return full;
 }
 

@@ -62,7 +62,7 @@ const std::vector<Lamp>& sun_and_sky() {
 
 }  // namespace
 
-double lit_brightness(const std::shared_ptr<const scene::PlantModel>& model) {
+double lit_brightness(const std::shared_ptr<const scene::PlantModel>& model, float width_m) {
   constexpr int side_px = 60;
   const scene::Scene scene = small_wood(model);
   const auto tracer = accel::make_nested(scene);
@@ -77,6 +77,8 @@ double lit_brightness(const std::shared_ptr<const scene::PlantModel>& model) {
   std::vector<accel::Ray> rays(side_px * side_px), sunward;
   std::vector<accel::Hit> hits(rays.size());
   std::vector<shade::SurfacePoint> points;
+  std::vector<accel::Hit> met;
+  std::vector<std::size_t> askers;
   std::vector<std::uint8_t> shaded;
   for (const V3& view : {direction_of(0, 12), direction_of(110, 30), direction_of(230, 65)}) {
     const V3 right = V3(0, 0, 1).cross(view).normalized(), up = view.cross(right);
@@ -85,25 +87,34 @@ double lit_brightness(const std::shared_ptr<const scene::PlantModel>& model) {
                   y = (static_cast<float>(i / side_px) + 0.5f) / side_px * 2 - 1;
       rays[i].origin = middle + V3d(view * (3 * radius) + right * (x * radius) + up * (y * radius));
       rays[i].direction = -view;
+      rays[i].width_m = width_m;
     }
     tracer->nearest(rays, hits);
     points.clear();
-    for (std::size_t i = 0; i < rays.size(); ++i)
-      if (hits[i].surface == accel::Surface::plant) points.push_back(shade::surface_at(scene, land, rays[i], hits[i]));
+    met.clear();
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (hits[i].surface != accel::Surface::plant) continue;
+      points.push_back(shade::surface_at(scene, land, rays[i], hits[i]));
+      met.push_back(hits[i]);
+    }
     seen += points.size();
     for (const Lamp& lamp : lamps) {
-      sunward.resize(points.size());
+      sunward.clear();
+      askers.clear();
       for (std::size_t k = 0; k < points.size(); ++k) {
-        const float side = points[k].plane.dot(lamp.towards) > 0 ? 2e-3f : -2e-3f;
-        sunward[k].origin = points[k].at + V3d(points[k].plane * side);
-        sunward[k].direction = lamp.towards;
+        accel::Ray ray;
+        ray.width_m = width_m;
+        if (!shade::ray_from(points[k], met[k], lamp.towards, 2e-3, ray)) continue;
+        sunward.push_back(ray);
+        askers.push_back(k);
       }
       shaded.assign(sunward.size(), 0);
       tracer->occluded(sunward, shaded);
-      for (std::size_t k = 0; k < points.size(); ++k) {
-        if (shaded[k]) continue;
-        const float facing = points[k].normal.dot(lamp.towards);
-        const Rgb& share = facing > 0 ? points[k].reflectance : points[k].transmittance;
+      for (std::size_t i = 0; i < sunward.size(); ++i) {
+        if (shaded[i]) continue;
+        const shade::SurfacePoint& point = points[askers[i]];
+        const float facing = point.normal.dot(lamp.towards);
+        const Rgb& share = facing > 0 ? point.reflectance : point.transmittance;
         sum += static_cast<double>(lamp.light * std::abs(facing) * luminance(share));
       }
     }

@@ -205,9 +205,7 @@ class Block {
       const float facing = sample.point.normal.dot(sun);
       if (facing <= 0 && luminance(sample.point.transmittance) <= 0) continue;
       accel::Ray ray;
-      ray.origin = sample.point.at +
-                   V3d(sample.point.plane) * (sample.point.plane.dot(sun) > 0 ? lift(sample.hit) : -lift(sample.hit));
-      ray.direction = sun;
+      if (!shade::ray_from(sample.point, sample.hit, sun, lift(sample.hit), ray) && options_.sun_shadows) continue;
       ray.width_m = width_at(sample);
       rays_.push_back(ray);
       askers_.push_back(i);
@@ -251,17 +249,20 @@ class Block {
         const float v =
             through ? (sample.draws[1] - share) / std::max(1 - share, 1e-6f) : sample.draws[1] / std::max(share, 1e-6f);
         const float u = sample.draws[0] + 0.618034f * static_cast<float>(number);
+        const Rgb weight = (through ? sample.point.transmittance / std::max(1 - share, 1e-6f)
+                                    : sample.point.reflectance / std::max(share, 1e-6f)) /
+                           static_cast<float>(options_.sky_rays);
+        const V3 skyward = cosine_weighted(through ? -sample.point.normal : sample.point.normal, u - std::floor(u),
+                                           std::min(v, 0.999999f));
         accel::Ray ray;
-        ray.direction = cosine_weighted(through ? -sample.point.normal : sample.point.normal, u - std::floor(u),
-                                        std::min(v, 0.999999f));
-        const double off = sample.point.plane.dot(ray.direction) > 0 ? lift(sample.hit) : -lift(sample.hit);
-        ray.origin = sample.point.at + V3d(sample.point.plane) * off;
+        if (!shade::ray_from(sample.point, sample.hit, skyward, lift(sample.hit), ray)) {
+          samples_[i].light += weight * surroundings_;
+          continue;
+        }
         ray.width_m = width_at(sample);
         rays_.push_back(ray);
         askers_.push_back(i);
-        shares_.push_back((through ? sample.point.transmittance / std::max(1 - share, 1e-6f)
-                                   : sample.point.reflectance / std::max(share, 1e-6f)) /
-                          static_cast<float>(options_.sky_rays));
+        shares_.push_back(weight);
       }
       shaded_.assign(rays_.size(), 0);
       tracer_.occluded(rays_, shaded_);

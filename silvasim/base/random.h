@@ -19,6 +19,7 @@ enum class Purpose : std::uint32_t {
   rotation = 6,
   plant_form = 7,
   picture = 8,
+  impostor = 9,
 };
 
 // A stream of numbers named by (seed, purpose, a, b, c). Two streams with different names are independent.

@@ -16,6 +16,8 @@ namespace silvavis::accel {
 
 HWY_EXPORT(trace_nearest);
 HWY_EXPORT(trace_occluded);
+HWY_EXPORT(model_nearest);
+HWY_EXPORT(model_occluded);
 
 namespace {
 
@@ -36,6 +38,13 @@ class Nested final : public Tracer {
 };
 
 }  // namespace
+
+void trace_model(const scene::PlantModel& model, std::span<const ModelRay> rays, std::span<ModelPoint> points) {
+  HWY_DYNAMIC_DISPATCH(model_nearest)(model, rays, points);
+}
+void bar_model(const scene::PlantModel& model, std::span<const ModelRay> rays, std::span<std::uint8_t> answers) {
+  HWY_DYNAMIC_DISPATCH(model_occluded)(model, rays, answers);
+}
 
 std::unique_ptr<Tracer> make_nested(const scene::Scene& scene) { return std::make_unique<Nested>(scene); }
 

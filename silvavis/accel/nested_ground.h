@@ -11,9 +11,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace silvavis::accel::HWY_NAMESPACE {
 
-// A node of a pyramid (level >= 0) or an item (level -1) that the ray meets between near and far.
+// A node of a pyramid (level >= 0) or an item (level -1) whose box the ray crosses between near and far.
 struct PyramidEntry {
-  float near, far, low, high;
+  float near, far;
   std::int32_t level, column, row;
 };
 struct PyramidStack {
@@ -31,28 +31,23 @@ HWY_INLINE std::uint32_t turned_bits(std::uint32_t bits, bool flip_x, bool flip_
   return bits;
 }
 
-// Calls leaf(column, row, near, far, low, high) for the items whose box the ray crosses, about front to back, from the nodes on
-// the stack down; `best` may shrink meanwhile, and leaf returns true to end the walk.
-template <typename Leaf>
-HWY_INLINE void walk_pyramid(const scene::Pyramid& pyramid, const FlatRay& ray, PyramidStack& stack, const double& best,
-                             Leaf& leaf) {
-  const bool flip_x = ray.dx < 0, flip_y = ray.dy < 0;
-  const std::uint32_t flip = (flip_x ? 3u : 0u) | (flip_y ? 12u : 0u);
-  const float margin = pyramid.margin_m + 0.01f;  // floats of world space are off by millimetres
-  constexpr float slack_m = 0.05f;
-  HWY_ALIGN static constexpr float columns[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
-  HWY_ALIGN static constexpr float rows[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-  const V8 step = hn::Set(f8, pyramid.step_m), base = hn::Set(f8, pyramid.origin_m);
-  const V8 dz = hn::Set(f8, ray.dz), oz = hn::Set(f8, ray.oz);
+// Where the ray crosses the boxes of a node's children.
+struct PyramidCrossing {
+  HWY_ALIGN float nears[16];
+  HWY_ALIGN float fars[16];
 
-  while (stack.size > 0) {
-    const PyramidEntry entry = stack.entries[--stack.size];
-    const auto most = static_cast<float>(std::min(best, 1e30));
-    if (entry.near > most) continue;
-    if (entry.level < 0) {
-      if (leaf(entry.column, entry.row, entry.near, std::min(entry.far, most), entry.low, entry.high)) return;
-      continue;
-    }
+  // Bits of the children crossed no farther than `most`.
+  HWY_INLINE std::uint32_t cross(const scene::Pyramid& pyramid, const FlatRay& ray, const PyramidEntry& entry,
+                                 float most) {
+    const bool flip_x = ray.dx < 0, flip_y = ray.dy < 0;
+    const float margin = pyramid.margin_m + 0.01f;  // floats of world space are off by millimetres
+    constexpr float slack_m = 0.05f;
+    HWY_ALIGN static constexpr float columns[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+    HWY_ALIGN static constexpr float rows[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+    // Heights are counted from the ray's origin.
+    const V8 step = hn::Set(f8, pyramid.step_m), iz = hn::Set(f8, ray.iz);
+    const V8 below = hn::Set(f8, pyramid.origin_m - ray.oz - slack_m),
+             above = hn::Set(f8, pyramid.origin_m - ray.oz + slack_m);
     const scene::Pyramid::Level& level = pyramid.levels[static_cast<std::size_t>(entry.level)];
     const scene::PyramidNode& node =
         level.nodes[static_cast<std::size_t>(entry.row) * static_cast<std::size_t>(level.columns) +
@@ -68,42 +63,77 @@ HWY_INLINE void walk_pyramid(const scene::Pyramid& pyramid, const FlatRay& ray, 
                 y_out = (south + (flip_y ? -margin : cell_y + margin)) * ray.iy;
     const V8 per_x = hn::Set(f8, cell_x * ray.ix), per_y = hn::Set(f8, cell_y * ray.iy);
     const V8 least = hn::Set(f8, entry.near), greatest = hn::Set(f8, std::min(entry.far, most));
-    HWY_ALIGN float nears[16], fars[16], lows[16], highs[16];
     std::uint32_t hits = 0;
     for (std::size_t k = 0; k < 16; k += hn::Lanes(f8)) {
       const V8 to_x = hn::Mul(hn::Load(f8, columns + k), per_x), to_y = hn::Mul(hn::Load(f8, rows + k), per_y);
-      const V8 near = hn::Max(hn::Max(hn::Add(hn::Set(f8, x_in), to_x), hn::Add(hn::Set(f8, y_in), to_y)), least);
-      const V8 far = hn::Min(hn::Min(hn::Add(hn::Set(f8, x_out), to_x), hn::Add(hn::Set(f8, y_out), to_y)), greatest);
-      const V8 low = hn::Add(base, hn::Mul(step, floats_of(node.least.data() + k)));
-      const V8 high = hn::Add(base, hn::Mul(step, floats_of(node.most.data() + k)));
-      const V8 z_in = hn::Add(oz, hn::Mul(dz, near)), z_out = hn::Add(oz, hn::Mul(dz, far));
-      auto crossed = hn::And(hn::Le(near, far), hn::Le(low, high));
-      crossed = hn::And(crossed, hn::Le(hn::Min(z_in, z_out), hn::Add(high, hn::Set(f8, slack_m))));
-      crossed = hn::And(crossed, hn::Ge(hn::Max(z_in, z_out), hn::Sub(low, hn::Set(f8, slack_m))));
+      const V8 stored_low = floats_of(node.least.data() + k), stored_high = floats_of(node.most.data() + k);
+      const V8 low = hn::Add(below, hn::Mul(step, stored_low)), high = hn::Add(above, hn::Mul(step, stored_high));
+      const V8 to_low = hn::Mul(low, iz), to_high = hn::Mul(high, iz);
+      const V8 near = hn::Max(hn::Max(hn::Add(hn::Set(f8, x_in), to_x), hn::Add(hn::Set(f8, y_in), to_y)),
+                              hn::Max(hn::Min(to_low, to_high), least));
+      const V8 far = hn::Min(hn::Min(hn::Add(hn::Set(f8, x_out), to_x), hn::Add(hn::Set(f8, y_out), to_y)),
+                             hn::Min(hn::Max(to_low, to_high), greatest));
+      const auto crossed = hn::And(hn::Le(near, far), hn::Le(stored_low, stored_high));
       hn::Store(near, f8, nears + k);
       hn::Store(far, f8, fars + k);
-      hn::Store(low, f8, lows + k);
-      hn::Store(high, f8, highs + k);
       hits |= bits_of(f8, crossed) << k;
     }
+    return hits;
+  }
+};
+
+// Calls leaf(entry) for the nodes of level 0 (`leaf_level` 0) or the items (-1) whose box the ray crosses, about front to
+// back, from the nodes on the stack down; `best` may shrink meanwhile, and leaf returns true to end the walk.
+template <int leaf_level, typename Leaf>
+HWY_INLINE void walk_pyramid(const scene::Pyramid& pyramid, const FlatRay& ray, PyramidStack& stack, const double& best,
+                             Leaf& leaf) {
+  const bool flip_x = ray.dx < 0, flip_y = ray.dy < 0;
+  const std::uint32_t flip = (flip_x ? 3u : 0u) | (flip_y ? 12u : 0u);
+  PyramidCrossing crossing;
+  while (stack.size > 0) {
+    PyramidEntry entry = stack.entries[--stack.size];
+    const auto most = static_cast<float>(std::min(best, 1e30));
+    if (entry.near > most) continue;
+    entry.far = std::min(entry.far, most);
+    if (entry.level == leaf_level) {
+      if (leaf(entry)) return;
+      continue;
+    }
+    const std::uint32_t hits = crossing.cross(pyramid, ray, entry, most);
     for (std::uint32_t order = turned_bits(hits, flip_x, flip_y); order != 0;) {
       const auto last = static_cast<std::uint32_t>(std::bit_width(order)) - 1;
       order ^= 1u << last;
       const std::uint32_t child = last ^ flip;
-      stack.push({nears[child], fars[child], lows[child], highs[child], entry.level - 1,
+      stack.push({crossing.nears[child], crossing.fars[child], entry.level - 1,
                   entry.column * 4 + static_cast<std::int32_t>(child & 3),
                   entry.row * 4 + static_cast<std::int32_t>(child >> 2)});
     }
   }
 }
 
+// Narrows an entry of level 0 to where the ray crosses the boxes of its items; false: nowhere.
+HWY_INLINE bool narrow(const scene::Pyramid& pyramid, const FlatRay& ray, PyramidEntry& entry) {
+  PyramidCrossing crossing;
+  std::uint32_t hits = crossing.cross(pyramid, ray, entry, entry.far);
+  if (hits == 0) return false;
+  entry.near = 1e30f;
+  entry.far = -1e30f;
+  for (; hits != 0; hits &= hits - 1) {
+    const auto child = static_cast<std::size_t>(std::countr_zero(hits));
+    entry.near = std::min(entry.near, crossing.nears[child]);
+    entry.far = std::max(entry.far, crossing.fars[child]);
+  }
+  return true;
+}
+
+// Down to the nodes of level 0.
 template <typename Leaf>
 HWY_INLINE void walk_whole_pyramid(const scene::Pyramid& pyramid, const FlatRay& ray, float least, const double& best,
                                    Leaf& leaf) {
   PyramidStack stack;
-  stack.push({least, static_cast<float>(std::min(best, 1e30)), 0, 0,
-              static_cast<std::int32_t>(pyramid.levels.size()) - 1, 0, 0});
-  walk_pyramid(pyramid, ray, stack, best, leaf);
+  stack.push(
+      {least, static_cast<float>(std::min(best, 1e30)), static_cast<std::int32_t>(pyramid.levels.size()) - 1, 0, 0});
+  walk_pyramid<0>(pyramid, ray, stack, best, leaf);
 }
 
 // The two triangles of a cell. The ray's height above each triangle's plane is linear along it; where it turns from above to
@@ -114,14 +144,16 @@ struct GroundWalk {
   double& best;
   bool found = false;
 
-  HWY_INLINE bool operator()(int column, int row, float near, float far, float, float) {
+  HWY_INLINE bool operator()(const PyramidEntry& cell) {
     constexpr double rounding_m = 0.02;
+    const int column = cell.column, row = cell.row;
     const double dx = static_cast<double>(ray.direction.x), dy = static_cast<double>(ray.direction.y),
                  dz = static_cast<double>(ray.direction.z);
     // In the cell's own square [0,1] x [0,1].
     const double u0 = (ray.origin.x - ground.west) / ground.cell_x_m - column, du = dx / ground.cell_x_m;
     const double v0 = (ray.origin.y - ground.south) / ground.cell_y_m - row, dv = dy / ground.cell_y_m;
-    double from = std::max(static_cast<double>(near), ray.least), to = std::min(static_cast<double>(far), best);
+    double from = std::max(static_cast<double>(cell.near), ray.least),
+           to = std::min(static_cast<double>(cell.far), best);
     clip(u0, du, from, to);
     clip(v0, dv, from, to);
     if (from > to) return false;
@@ -160,26 +192,32 @@ struct GroundWalk {
   }
 };
 
-// The ground between near and far, a stretch no longer than a tile: begins at the few nodes that it can touch.
+// The ground between near and far: begins at the few nodes that the stretch can touch.
 HWY_INLINE bool nearest_ground(const scene::Scene& scene, const FlatRay& flat, const Ray& ray, float near, float far,
                                double& best) {
   const scene::Pyramid& pyramid = scene.ground.pyramid;
-  const scene::Pyramid::Level& level = pyramid.levels[static_cast<std::size_t>(scene.land.ground_level)];
-  const auto across = static_cast<float>(4u << (2 * scene.land.ground_level));
-  const auto node_at = [&](float at, float origin, float size, int count) HWY_ATTR {
-    return std::clamp(static_cast<int>(std::floor((at - origin) / size)), 0, count - 1);
-  };
-  const float wide = pyramid.cell_x_m * across, high = pyramid.cell_y_m * across;
   const float x0 = flat.ox + flat.dx * near, x1 = flat.ox + flat.dx * far, y0 = flat.oy + flat.dy * near,
               y1 = flat.oy + flat.dy * far;
   constexpr float slack_m = 0.02f;
+  int first_level = 0;
+  float wide = 4 * pyramid.cell_x_m, high = 4 * pyramid.cell_y_m;
+  while ((wide < std::abs(x1 - x0) + 2 * slack_m || high < std::abs(y1 - y0) + 2 * slack_m) &&
+         first_level + 1 < static_cast<int>(pyramid.levels.size())) {
+    ++first_level;
+    wide *= 4;
+    high *= 4;
+  }
+  const scene::Pyramid::Level& level = pyramid.levels[static_cast<std::size_t>(first_level)];
+  const auto node_at = [&](float at, float origin, float size, int count) HWY_ATTR {
+    return std::clamp(static_cast<int>(std::floor((at - origin) / size)), 0, count - 1);
+  };
   const float out_x = flat.dx < 0 ? -slack_m : slack_m, out_y = flat.dy < 0 ? -slack_m : slack_m;
   const int first_column = node_at(x0 - out_x, pyramid.west, wide, level.columns),
             last_column = node_at(x1 + out_x, pyramid.west, wide, level.columns);
   const int first_row = node_at(y0 - out_y, pyramid.south, high, level.rows),
             last_row = node_at(y1 + out_y, pyramid.south, high, level.rows);
   PyramidStack stack;
-  const PyramidEntry entry{near, far, 0, 0, scene.land.ground_level, 0, 0};
+  const PyramidEntry entry{near, far, first_level, 0, 0};
   const auto push = [&](int column, int row) HWY_ATTR {
     PyramidEntry node = entry;
     node.column = column;
@@ -192,7 +230,7 @@ HWY_INLINE bool nearest_ground(const scene::Scene& scene, const FlatRay& flat, c
   if (first_row != last_row) push(last_column, first_row);
   if (first_column != last_column && first_row != last_row) push(first_column, first_row);
   GroundWalk walk{scene.ground, ray, best};
-  walk_pyramid(pyramid, flat, stack, best, walk);
+  walk_pyramid<-1>(pyramid, flat, stack, best, walk);
   return walk.found;
 }
 

@@ -6,6 +6,7 @@
 #define SILVAVIS_NESTED_SITES
 #endif
 
+#include "silvavis/accel/nested_ground.h"
 #include "silvavis/accel/nested_model.h"
 #include "silvavis/scene/instance.h"
 
@@ -19,12 +20,18 @@ struct LayerWalk {
   std::uint8_t layer_index;
   const Ray& ray;
   const FlatRay& flat;
+  std::uint64_t hash;  // of the ray
   double& best;
   Hit& hit;
   bool found;
 
-  // A tile position whose box of heights [low, high] the ray crosses between near and far.
-  HWY_INLINE bool operator()(int column, int row, float near, float far, float low, float high) {
+  HWY_INLINE bool operator()(PyramidEntry entry) {
+    return narrow(layer.pyramid, flat, entry) && meet_tile(entry.column, entry.row, entry);
+  }
+
+  // A tile position whose box the ray crosses.
+  HWY_INLINE bool meet_tile(int column, int row, const PyramidEntry& box) {
+    const float near = box.near, far = box.far;
     const std::size_t position = layer.position(column, row);
     const scene::TileSites& tile = layer.tile_sites[layer.tiles[position]];
     if (tile.count == 0) return false;
@@ -38,11 +45,9 @@ struct LayerWalk {
     r.y = moved(ray.origin.y, layer.south + row * layer.tile_side_m, ray.direction.y);
     r.z = moved(ray.origin.z, 0, ray.direction.z);
     r.begin = begin;
-    // Only where the ray is between the lowest root and the highest tip.
     constexpr float slack_m = 0.05f;
-    const float z0 = (low - slack_m - r.z) * flat.iz, z1 = (high + slack_m - r.z) * flat.iz;
-    r.least = std::max({0.0f, std::min(z0, z1), static_cast<float>(ray.least - begin)});
-    r.most = std::min(far - near + slack_m, std::max(z0, z1));
+    r.least = std::max(0.0f, static_cast<float>(ray.least - begin));
+    r.most = far - near + slack_m;
     if (r.least > r.most) return false;
     walk_tile(tile, position, column, row, r);
     return any_hit && found;
@@ -157,6 +162,8 @@ struct LayerWalk {
   }
 
   HWY_INLINE void meet_plant(int column, int row, std::uint32_t slot, std::uint8_t species) {
+    if (slot == ray.left_slot && column == ray.left_column && row == ray.left_row && layer_index == ray.left_layer)
+      return;
     const scene::Instance plant = scene::instance_at(scene, layer, column, row, slot, species);
     const scene::LocalRay local = scene::local_ray(plant, ray.origin, ray.direction);
     std::uint8_t level = 0;
@@ -164,7 +171,9 @@ struct LayerWalk {
       const float width = ray.width_m + ray.spread * static_cast<float>(std::max(local.start, 0.0));
       level = scene::level_for(*scene.models[plant.model], plant, width);
     }
-    const scene::PlantModel& model = scene::model_at(scene, plant.model, level);
+    const scene::PlantModel& full = *scene.models[plant.model];
+    if (scene::is_impostor(full, level)) return meet_impostor(full, plant, local, column, row, slot, species, level);
+    const scene::PlantModel& model = level == 0 ? full : *full.coarser[level - 1u];
     const double size = 1.0 / static_cast<double>(plant.scale);
     ModelHit model_hit;
     model_hit.t = static_cast<float>(std::min((best - local.start) * size, 1e30));
@@ -172,6 +181,26 @@ struct LayerWalk {
     if (!hit_model<any_hit>(model, local.origin, local.direction, least, model_hit)) return;
     const double distance = local.start + static_cast<double>(model_hit.t) * static_cast<double>(plant.scale);
     if (distance >= best || distance < ray.least) return;
+    keep(distance, plant, column, row, slot, species, level, model_hit);
+  }
+
+  HWY_INLINE void meet_impostor(const scene::PlantModel& model, const scene::Instance& plant,
+                                const scene::LocalRay& local, int column, int row, std::uint32_t slot,
+                                std::uint8_t species, std::uint8_t level) {
+    const std::uint64_t chance =
+        scene::mixed(hash + (std::uint64_t{static_cast<std::uint32_t>(column)} << 40) +
+                     (std::uint64_t{static_cast<std::uint32_t>(row)} << 20) + slot * 0x9E3779B97F4A7C15u);
+    ModelHit model_hit;
+    model_hit.slot = scene::meet_impostor(*model.impostor, local.origin, local.direction, plant.side, chance);
+    if (model_hit.slot == scene::no_point) return;
+    const double distance = local.start + static_cast<double>(model.impostor->points[model_hit.slot].depth_m) *
+                                              static_cast<double>(plant.scale);
+    if (distance >= best || distance < ray.least) return;
+    keep(distance, plant, column, row, slot, species, level, model_hit);
+  }
+
+  HWY_INLINE void keep(double distance, const scene::Instance& plant, int column, int row, std::uint32_t slot,
+                       std::uint8_t species, std::uint8_t level, const ModelHit& model_hit) {
     best = distance;
     found = true;
     hit.surface = Surface::plant;

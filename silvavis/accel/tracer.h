@@ -15,6 +15,8 @@
 
 namespace silvavis::accel {
 
+inline constexpr std::uint32_t no_slot = 0xFFFFFFFFu;
+
 struct Ray {
   V3d origin{0, 0, 0};    // world space
   V3 direction{0, 0, 1};  // unit length
@@ -24,6 +26,11 @@ struct Ray {
   // How wide the ray is, at its origin and what it gains a metre: plants whose leaves are smaller than that are met in a
   // simpler level. Both zero: always the full models.
   float width_m = 0, spread = 0;
+
+  // The plant that the ray leaves, where that has told already what it bars itself (an impostor).
+  std::uint32_t left_slot = no_slot;  // no_slot: none, and the others mean nothing
+  std::int32_t left_column = 0, left_row = 0;
+  std::uint8_t left_layer = 0;
 };
 
 enum class Surface : std::uint8_t { none, ground, plant };
@@ -36,8 +43,8 @@ struct Hit {
   std::int32_t column = 0, row = 0;  // tile position, row 0 the southernmost
   std::uint32_t site_slot = 0;       // in TileSites
   std::uint32_t model = 0;           // into Scene::models
-  std::uint8_t level = 0;            // 0: the model itself, k: its coarser[k - 1]
-  std::uint32_t slot = 0;            // the model's triangle
+  std::uint8_t level = 0;            // 0: the model itself, k: its coarser[k - 1]; one more than those: its impostor
+  std::uint32_t slot = 0;            // the model's triangle; of an impostor its point
   float u = 0, v = 0;                // weights of its corners 1 and 2
 };
 

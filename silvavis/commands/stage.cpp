@@ -176,9 +176,9 @@ V3d world_point(const scene::Scene& scene, const std::string& text, const char* 
 }
 
 shade::SceneBox scene_box(const scene::Scene& scene) {
-  const scene::Pyramid& ground = scene.ground.pyramid;
+  const scene::Pyramid &ground = scene.ground.pyramid, &land = scene.land.pyramid;
   shade::SceneBox box{scene.extent, static_cast<double>(ground.origin_m),
-                      static_cast<double>(ground.origin_m + 65535 * ground.step_m)};
+                      static_cast<double>(land.origin_m + 65535 * land.step_m)};
   for (const scene::PlantLayer& layer : scene.layers)
     box.greatest_z_m =
         std::max(box.greatest_z_m, static_cast<double>(layer.pyramid.origin_m + 65535 * layer.pyramid.step_m));

@@ -25,6 +25,7 @@ struct Instance {
   Turn turn{1, 0};
   std::uint32_t model = 0;  // into Scene::models
   float dither = 0;         // in [0, 1): its own, so that neighbours change their level at different distances
+  std::uint32_t side = 0;   // from which it is seen as an impostor
 };
 
 // A mixing of bits with the avalanche of murmur3's finaliser: every bit of place and site changes every bit of it.
@@ -51,30 +52,30 @@ inline Instance instance_at(const Scene& scene, const PlantLayer& layer, int col
   instance.scale = tile.radius_m[slot] / species.model_radius_m;
   instance.turn = turns()[hash & 255];
   instance.dither = static_cast<float>(hash >> 3 & 255) / 256.0f;
+  instance.side = (hash >> 11 & 255) * Impostor::sides >> 8;
   instance.model = species.first_model +
                    static_cast<std::uint32_t>((static_cast<std::uint64_t>(hash >> 8) * species.variants) >> 24);
   return instance;
 }
 
-// Which level of a model to meet with a ray of this width: the simplest whose leaves are no wider.
+// Which level of a model to meet with a ray of this width: the simplest whose leaves, or texels, are no wider.
 inline std::uint8_t level_for(const PlantModel& model, const Instance& instance, float width_m) {
   const float wide = width_m / (instance.scale * (0.75f + 0.5f * instance.dither));
+  constexpr float texels_a_pixel = 0.6f;  // they are blurred into each other
+  if (model.impostor && texels_a_pixel * model.impostor->texel_m <= wide)
+    return static_cast<std::uint8_t>(model.coarser.size() + 1);
   std::uint8_t level = 0;
   while (level < model.coarser.size() && model.coarser[level]->leaf_m <= wide) ++level;
   return level;
 }
-
-inline const PlantModel& model_at(const Scene& scene, std::uint32_t model, std::uint8_t level) {
-  const PlantModel& full = *scene.models[model];
-  return level == 0 ? full : *full.coarser[level - 1u];
-}
+inline bool is_impostor(const PlantModel& model, std::uint8_t level) { return level > model.coarser.size(); }
 
 // A ray in a model's space: from the point of the ray nearest to the plant's axis on, so that floats keep a fraction of
 // a millimetre however far the eye is. Distances along it are (t - start) / scale.
 struct LocalRay {
   V3 origin{0, 0, 0};
   V3 direction{0, 0, 1};
-  double start = 0;  // distance along the world's ray of the local origin
+  double start = 0;  // distance along the world's ray of the local origin, the point nearest to the foot
 };
 
 inline LocalRay local_ray(const Instance& instance, const V3d& origin, const V3& direction) {

@@ -19,6 +19,7 @@
 #include "silvasim/base/huge_vector.h"
 #include "silvavis/assets/model.h"
 #include "silvavis/base/vector.h"
+#include "silvavis/scene/impostor.h"
 
 namespace silvavis::scene {
 
@@ -96,8 +97,9 @@ struct PlantModel {
 
   // Simpler ones, for where a pixel is wider than their leaves; each simpler than the one before (levels/thin.h).
   std::vector<std::shared_ptr<const PlantModel>> coarser;
-  float leaf_m = 0;  // side of a typical leaf
-  float tint = 1;    // what its colours are multiplied with, to be as bright as the full model
+  std::shared_ptr<const Impostor> impostor;  // for where a pixel is as wide as its texels; may be missing
+  float leaf_m = 0;                          // side of a typical leaf
+  float tint = 1;                            // what its colours are multiplied with, to be as bright as the full model
 
   V3 position_of(std::uint32_t slot, int corner) const {
     const auto& c = blocks[slot / block_size].corners[static_cast<std::size_t>(corner)];
@@ -116,6 +118,7 @@ struct PlantModel {
     std::size_t sum =
         nodes.size() * sizeof(TreeNode) + blocks.size() * sizeof(TriangleBlock) + normals.size() * sizeof(SlotNormals);
     for (const auto& level : coarser) sum += level->bytes();
+    if (impostor) sum += impostor->bytes();
     return sum;
   }
 };

@@ -34,31 +34,28 @@ void add_species(Scene& scene, PlantLayer& layer, const ecosystem::Species& spec
   layer.species.push_back(std::move(entry));
 }
 
-// How far plants of any tile stand over its edges.
+// How far a plant reaches beyond the quarter that it stands in.
 float overhang(const PlantLayer& layer) {
-  const auto side = static_cast<float>(layer.tile_side_m);
   float most = 0;
-  for (const TileSites& tile : layer.tile_sites) {
-    for (std::size_t s = 0; s < tile.count; ++s) {
-      const float x = tile.x_m[s], y = tile.y_m[s], r = tile.reach_m[s];
-      most = std::max({most, r - x, r - y, x + r - side, y + r - side});
-    }
-  }
+  for (const TileSites& tile : layer.tile_sites)
+    for (std::size_t s = 0; s < tile.count; ++s) most = std::max(most, tile.reach_m[s]);
   return most;
 }
 
 // Heights and species of one tile position's plants, in its tile's slot order.
-HeightRange place_plants(const Scene& scene, PlantLayer& layer, const ecosystem::Layer& from, int column, int row,
-                         std::vector<double>& heights) {
+std::array<HeightRange, quarters * quarters> place_plants(const Scene& scene, PlantLayer& layer,
+                                                          const ecosystem::Layer& from, int column, int row,
+                                                          std::vector<double>& heights) {
   const std::size_t position = layer.position(column, row);
   const TileSites& tile = layer.tile_sites[layer.tiles[position]];
   const std::uint64_t first = layer.first_slot[position];
   const double west = layer.west + column * layer.tile_side_m, south = layer.south + row * layer.tile_side_m;
   heights.assign(tile.count, 0);
   double least = std::numeric_limits<double>::infinity(), most = -least;
-  HeightRange range;
-  range.least_m = std::numeric_limits<float>::infinity();
-  range.most_m = -range.least_m;
+  std::array<HeightRange, quarters * quarters> ranges;
+  const auto quarter_of = [&](float at) {
+    return std::clamp(static_cast<int>(static_cast<double>(at) / layer.tile_side_m * quarters), 0, quarters - 1);
+  };
   for (std::uint32_t slot = 0; slot < tile.count; ++slot) {
     const ecosystem::PlantId id = from.plants[first + tile.site_ids[slot]];
     const bool stands = id != ecosystem::no_plant && layer.species[id].variants > 0;
@@ -80,8 +77,12 @@ HeightRange place_plants(const Scene& scene, PlantLayer& layer, const ecosystem:
       low = std::min(low, scene.models[species.first_model + v]->least.z);
       high = std::max(high, scene.models[species.first_model + v]->most.z);
     }
-    range.least_m = std::min(range.least_m, foot + low * static_cast<float>(scale));
-    range.most_m = std::max(range.most_m, foot + high * static_cast<float>(scale));
+    HeightRange& range =
+        ranges[static_cast<std::size_t>(quarter_of(tile.y_m[slot]) * quarters + quarter_of(tile.x_m[slot]))];
+    const HeightRange own{foot + low * static_cast<float>(scale), foot + high * static_cast<float>(scale)};
+    range = range.least_m > range.most_m
+                ? own
+                : HeightRange{std::min(range.least_m, own.least_m), std::max(range.most_m, own.most_m)};
   }
   layer.base_m[position] = std::isfinite(least) ? static_cast<float>(least) : 0.0f;
   layer.step_m[position] = std::isfinite(least) ? static_cast<float>((most - least) / 65535.0) : 0.0f;
@@ -90,7 +91,7 @@ HeightRange place_plants(const Scene& scene, PlantLayer& layer, const ecosystem:
     const double stored = step > 0 ? std::round((heights[slot] - base) / step) : 0;
     layer.plant_heights[first + slot] = static_cast<std::uint16_t>(std::clamp(stored, 0.0, 65535.0));
   }
-  return range;
+  return ranges;
 }
 
 void place_layer(Scene& scene, PlantLayer& layer, const ecosystem::Layer& from) {
@@ -102,7 +103,7 @@ void place_layer(Scene& scene, PlantLayer& layer, const ecosystem::Layer& from) 
   std::fill(layer.plant_species.end() - 16, layer.plant_species.end(), no_species);
   std::fill(layer.plant_heights.end() - 16, layer.plant_heights.end(), std::uint16_t{0});
 
-  std::vector<HeightRange> ranges(positions);  // from the south
+  std::vector<std::array<HeightRange, quarters * quarters>> ranges(positions);  // from the south
   std::vector<std::uint64_t> standing(static_cast<std::size_t>(layer.rows));
   silvasim::base::parallel_for(static_cast<std::size_t>(layer.rows), [&](std::size_t r) {
     std::vector<double> heights;
@@ -120,18 +121,22 @@ void place_layer(Scene& scene, PlantLayer& layer, const ecosystem::Layer& from) 
   for (const std::uint64_t count : standing) scene.plants += count;
 
   HeightRange whole{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
-  for (const HeightRange& range : ranges) {
-    whole.least_m = std::min(whole.least_m, range.least_m);
-    whole.most_m = std::max(whole.most_m, range.most_m);
+  for (const auto& of_position : ranges) {
+    for (const HeightRange& range : of_position) {
+      if (range.least_m > range.most_m) continue;
+      whole.least_m = std::min(whole.least_m, range.least_m);
+      whole.most_m = std::max(whole.most_m, range.most_m);
+    }
   }
   if (whole.least_m > whole.most_m) whole = {0, 0};  // no plant at all
-  layer.pyramid = make_pyramid(layer.columns, layer.rows, whole, [&](int column, int row) {
-    return ranges[static_cast<std::size_t>(row) * static_cast<std::size_t>(layer.columns) +
-                  static_cast<std::size_t>(column)];
+  layer.pyramid = make_pyramid(layer.columns * quarters, layer.rows * quarters, whole, [&](int column, int row) {
+    return ranges[static_cast<std::size_t>(row / quarters) * static_cast<std::size_t>(layer.columns) +
+                  static_cast<std::size_t>(column / quarters)]
+                 [static_cast<std::size_t>(row % quarters * quarters + column % quarters)];
   });
   layer.pyramid.west = static_cast<float>(layer.west);
   layer.pyramid.south = static_cast<float>(layer.south);
-  layer.pyramid.cell_x_m = layer.pyramid.cell_y_m = static_cast<float>(layer.tile_side_m);
+  layer.pyramid.cell_x_m = layer.pyramid.cell_y_m = static_cast<float>(layer.tile_side_m / quarters);
   layer.pyramid.margin_m = overhang(layer) + 0.01f;
 }
 
@@ -183,24 +188,18 @@ void make_land(Scene& scene) {
     whole.least_m = std::min(whole.least_m, layer->pyramid.origin_m);
     whole.most_m = std::max(whole.most_m, layer->pyramid.origin_m + 65535 * layer->pyramid.step_m);
   }
-  land.pyramid = make_pyramid(columns, rows, whole, [&](int i, int j) {
-    const int column = i + land.first_column, row = j + land.first_row;
-    const HeightRange bare = ground_range(ground, west + column * side, south + row * side, side, side);
+  const double quarter = side / quarters;
+  land.pyramid = make_pyramid(columns * quarters, rows * quarters, whole, [&](int i, int j) {
+    const int column = i + land.first_column * quarters, row = j + land.first_row * quarters;
+    const HeightRange bare = ground_range(ground, west + column * quarter, south + row * quarter, quarter, quarter);
     const HeightRange grown = layer ? plant_range(layer->pyramid, column, row) : HeightRange{};
     if (grown.least_m > grown.most_m) return bare;
     return HeightRange{std::min(bare.least_m, grown.least_m), std::max(bare.most_m, grown.most_m)};
   });
   land.pyramid.west = static_cast<float>(west + land.first_column * side);
   land.pyramid.south = static_cast<float>(south + land.first_row * side);
-  land.pyramid.cell_x_m = land.pyramid.cell_y_m = static_cast<float>(side);
+  land.pyramid.cell_x_m = land.pyramid.cell_y_m = static_cast<float>(quarter);
   land.pyramid.margin_m = layer ? layer->pyramid.margin_m : 0.0f;
-  const double wide = side + 2 * static_cast<double>(land.pyramid.margin_m) + 1;
-  double node = 4 * std::min(ground.cell_x_m, ground.cell_y_m);
-  land.ground_level = 0;
-  while (node < wide && land.ground_level + 1 < static_cast<int>(below.levels.size())) {
-    node *= 4;
-    ++land.ground_level;
-  }
 }
 
 }  // namespace
@@ -271,6 +270,8 @@ Scene make_scene(ecosystem::Ecosystem from, const std::vector<std::vector<Specie
     scene.layers.push_back(std::move(layer));
   }
   make_land(scene);
+  // The land's holds it.
+  if (!scene.layers.empty()) scene.layers.front().pyramid = {};
   return scene;
 }
 

@@ -20,6 +20,7 @@
 namespace silvavis::scene {
 
 inline constexpr std::uint8_t no_species = 255;
+inline constexpr int quarters = 4;  // of a tile position, along each side
 
 // A Wang tile's sites in the order of its tree's leaves, sixteen a leaf. Columns are padded to whole leaves with sites of
 // negative radius.
@@ -64,7 +65,9 @@ struct PlantLayer {
   silvasim::base::LazyVector<std::uint8_t> plant_species;
   silvasim::base::LazyVector<std::uint16_t> plant_heights;
 
-  Pyramid pyramid;         // over tile positions: from the lowest root to the highest tip
+  // Over quarters of tile positions: from the lowest root to the highest tip of what stands there. The first layer's is part
+  // of the land's.
+  Pyramid pyramid;
   float most_reach = 1;    // greatest horizontal reach of a model / its nominal radius
   float most_height = 0;   // greatest height of a model / its nominal radius
   float least_height = 0;  // lowest point of a model (roots) / its nominal radius; at most 0
@@ -79,9 +82,9 @@ struct PlantLayer {
 // The first layer's tile positions together with the ground beneath and around them: the top of the hierarchy. Its leaf is the
 // paper's: a patch of ground and a Wang tile.
 struct LandGrid {
-  int first_column = 0, first_row = 0;  // tile position of the pyramid's item (0, 0); may lie outside the tiling
-  int ground_level = 0;                 // of the ground's pyramid: a node there is at least as wide as a tile
-  Pyramid pyramid;
+  int first_column = 0,
+      first_row = 0;  // tile position of the pyramid's first node of level 0; may lie outside the tiling
+  Pyramid pyramid;    // over quarters of tile positions, so that a tile position is a node of level 0
 };
 
 struct Scene {

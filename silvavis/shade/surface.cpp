@@ -10,6 +10,8 @@ namespace silvavis::shade {
 
 namespace {
 
+using scene::Impostor;
+
 const std::array<float, 256>& linear_of_byte() {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> values;
@@ -35,6 +37,13 @@ Rgb texture_colour(const assets::Texture& texture, const V2& uv) {
 
 V3 towards(const V3& normal, const V3& ray) { return normal.dot(ray) > 0 ? -normal : normal; }
 
+// An impostor's grid turns with who looks.
+scene::Turn turn_to(std::uint32_t side, const V3& direction) {
+  const V3 from = scene::impostor_direction(Impostor::elevations / 2, static_cast<int>(side));
+  const scene::ImpostorView is({}, direction), was({}, from);
+  return {is.ahead_x * was.ahead_x + is.ahead_y * was.ahead_y, was.ahead_x * is.ahead_y - was.ahead_y * is.ahead_x};
+}
+
 SurfacePoint ground_point(const scene::Scene& scene, const Land& land, const accel::Ray& ray, SurfacePoint point) {
   const scene::GroundPoint ground = scene::ground_at(scene.ground, point.at.x, point.at.y);
   point.plane = towards(V3(static_cast<float>(-ground.slope_x), static_cast<float>(-ground.slope_y), 1).normalized(),
@@ -57,31 +66,57 @@ SurfacePoint surface_at(const scene::Scene& scene, const Land& land, const accel
   point.at = ray.origin + V3d(ray.direction) * hit.distance;
   if (hit.surface == accel::Surface::ground) return ground_point(scene, land, ray, point);
 
-  const scene::PlantModel& model = scene::model_at(scene, hit.model, hit.level);
-  const scene::SlotNormals& normals = model.normals[hit.slot];
-  const assets::Material& material = model.looks->materials[model.material_of(hit.slot)];
-  const float w = 1 - hit.u - hit.v;
-  const V3 local = scene::unpacked_normal(normals[0]) * w + scene::unpacked_normal(normals[1]) * hit.u +
-                   scene::unpacked_normal(normals[2]) * hit.v;
-  const V3 a = model.position_of(hit.slot, 0);
-  const V3 plane = (model.position_of(hit.slot, 1) - a).cross(model.position_of(hit.slot, 2) - a);
+  const scene::PlantModel& full = *scene.models[hit.model];
+  std::uint32_t slot = hit.slot;
+  float u = hit.u, v = hit.v, tint = 1;
+  if (scene::is_impostor(full, hit.level)) {
+    point.told = &full.impostor->points[hit.slot];
+    slot = point.told->slot;
+    u = static_cast<float>(point.told->u) * (1.0f / 65535);
+    v = static_cast<float>(point.told->v) * (1.0f / 65535);
+    tint = full.impostor->tint;
+  }
+  const scene::PlantModel& model = hit.level == 0 || point.told ? full : *full.coarser[hit.level - 1u];
+  if (!point.told) tint = model.tint;
+  const scene::SlotNormals& normals = model.normals[slot];
+  const assets::Material& material = model.looks->materials[model.material_of(slot)];
+  const float w = 1 - u - v;
+  const V3 local = scene::unpacked_normal(normals[0]) * w + scene::unpacked_normal(normals[1]) * u +
+                   scene::unpacked_normal(normals[2]) * v;
+  const V3 a = model.position_of(slot, 0);
+  const V3 plane = (model.position_of(slot, 1) - a).cross(model.position_of(slot, 2) - a);
   const scene::Instance plant =
       scene::instance_at(scene, scene.layers[hit.layer], hit.column, hit.row, hit.site_slot, hit.species);
-  point.plane = towards(scene::turned(plant.turn, plane.normalized()), ray.direction);
+  point.turn = point.told ? turn_to(plant.side, ray.direction) : plant.turn;
+  point.plane = towards(scene::turned(point.turn, plane.normalized()), ray.direction);
   // A vertex normal belongs to the side on which the triangle runs anticlockwise.
-  const V3 bent = scene::turned(plant.turn, local.length2() > 1e-6f ? local.normalized() : plane.normalized());
-  const bool front = scene::turned(plant.turn, plane).dot(ray.direction) <= 0;
+  const V3 bent = scene::turned(point.turn, local.length2() > 1e-6f ? local.normalized() : plane.normalized());
+  const bool front = scene::turned(point.turn, plane).dot(ray.direction) <= 0;
   point.normal = front ? bent : -bent;
   if (point.normal.dot(ray.direction) > 0) point.normal = point.plane;
-  point.reflectance = material.reflectance * model.tint;
-  point.transmittance = material.transmittance * model.tint;
+  point.reflectance = material.reflectance * tint;
+  point.transmittance = material.transmittance * tint;
   if (material.texture != assets::no_texture) {
-    const V2 uv = model.uv_of(hit.slot, 0) * w + model.uv_of(hit.slot, 1) * hit.u + model.uv_of(hit.slot, 2) * hit.v;
+    const V2 uv = model.uv_of(slot, 0) * w + model.uv_of(slot, 1) * u + model.uv_of(slot, 2) * v;
     const Rgb colour = texture_colour(model.looks->textures[static_cast<std::size_t>(material.texture)], uv);
     point.reflectance *= colour;
     point.transmittance *= colour;
   }
   return point;
+}
+
+bool ray_from(const SurfacePoint& point, const accel::Hit& hit, const V3& towards, double lift_m, accel::Ray& ray) {
+  ray.origin = point.at + V3d(point.plane) * (point.plane.dot(towards) > 0 ? lift_m : -lift_m);
+  ray.direction = towards;
+  if (!point.told) return true;
+  const auto [c, s] = point.turn;
+  const V3 local(c * towards.x + s * towards.y, c * towards.y - s * towards.x, towards.z);
+  if (local.z > 0 && scene::is_barred(*point.told, local, scene::ray_hash(ray.origin, towards))) return false;
+  ray.left_slot = hit.site_slot;
+  ray.left_column = hit.column;
+  ray.left_row = hit.row;
+  ray.left_layer = hit.layer;
+  return true;
 }
 
 }  // namespace silvavis::shade

@@ -177,6 +177,7 @@ TEST(Scene, PlantsStandOnTheGroundWhereTheEcosystemSays) {
 TEST(Scene, TakesLessThanSixBytesAPlant) {
   testing::MadeForest made;
   made.columns = made.rows = 40;
+  made.side_m = 100;
   made.shrubs = false;
   const Scene scene = testing::made_forest(made);
   EXPECT_LT(static_cast<double>(scene.plant_bytes()) / static_cast<double>(scene.plants), 6.0);
