@@ -28,6 +28,7 @@
 #include "silvavis/accel/nested.h"
 #include "silvavis/flora.h"
 #include "silvavis/shade/camera.h"
+#include "views.h"
 
 namespace {
 
@@ -35,7 +36,7 @@ namespace fs = std::filesystem;
 using namespace silvavis;
 
 constexpr int width = 1920, height = 1080;
-constexpr std::array<const char*, 3> views = {"bird's eye", "flight", "close"};
+using silva_bench::camera_of, silva_bench::views;
 
 struct Figures {
   double models_s = 0, scene_s = 0, build_s = 0;
@@ -51,29 +52,6 @@ double seconds_since(std::chrono::steady_clock::time_point& mark) {
   const double seconds = std::chrono::duration<double>(now - mark).count();
   mark = now;
   return seconds;
-}
-
-shade::Camera camera_of(const scene::Scene& scene, std::size_t view) {
-  const double side = scene.extent.width();
-  const auto ground = [&](double x, double y) { return scene::ground_at(scene.ground, x, y).height_m; };
-  shade::Camera camera;
-  camera.width = width;
-  camera.height = height;
-  if (view == 0) {
-    camera.eye = {0, -0.9 * side, 0.75 * side};
-    camera.look_at = {0, 0, ground(0, 0)};
-    camera.fov_deg = 50;
-  } else if (view == 1) {
-    camera.eye = {-0.3 * side, -0.3 * side, ground(-0.3 * side, -0.3 * side) + 400};
-    camera.look_at = {0.1 * side, 0.1 * side, ground(0, 0)};
-    camera.fov_deg = 60;
-  } else {
-    const double x = 0.02 * side, y = 0.01 * side;
-    camera.eye = {x, y, ground(x, y) + 12};
-    camera.look_at = {x + 100, y + 60, ground(x + 100, y + 60) + 10};
-    camera.fov_deg = 60;
-  }
-  return camera;
 }
 
 std::uint64_t trace(const scene::Scene& scene, const accel::Tracer& tracer, std::size_t view, bool lod) {

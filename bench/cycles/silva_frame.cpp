@@ -1,0 +1,128 @@
+// SilvaVis's side of the comparison: one picture with one ray a pixel and one towards the sun, and what it cost.
+//
+// silva_frame FILE.silva OUT.exr [--view 0|1|2] [--backend nested|embree] [--lod auto|off] [--runs N] [--threads N], and
+// scene_dump's options: renders the picture `runs` times, prints one JSON object. CPU seconds are those of the process, user
+// and system; of the runs the least counts.
+// silva_frame --show IN.exr OUT.jpg --exposure STOPS: a picture, halved in size, through SilvaVis's tone curve.
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "cycles/stage.h"
+#include "silvasim/base/error.h"
+#include "silvasim/base/machine.h"
+#include "silvasim/base/parallel.h"
+#include "silvavis/image/file.h"
+#include "silvavis/image/tone.h"
+#include "views.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace silvavis;
+
+double cpu_seconds() {
+  struct rusage usage {};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) / 1e6;
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+image::Image halved(const image::Image& from) {
+  image::Image image(from.width / 2, from.height / 2, 3);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      for (int c = 0; c < 3; ++c)
+        image.at(x, y)[c] = 0.25f * (from.at(2 * x, 2 * y)[c] + from.at(2 * x + 1, 2 * y)[c] +
+                                     from.at(2 * x, 2 * y + 1)[c] + from.at(2 * x + 1, 2 * y + 1)[c]);
+  return image;
+}
+
+void show(const fs::path& from, const fs::path& to, double exposure_stops) {
+  image::Frame frame;
+  frame.colour = halved(image::read(from));
+  image::WriteOptions options;
+  options.exposure_stops = exposure_stops;
+  options.jpeg_quality = 85;
+  image::write(to, frame, options);
+}
+
+void measure(const commands::StageOptions& options, std::size_t view, int runs, const fs::path& output) {
+  const auto stage = commands::set_stage(options, {});
+  const double prepared_cpu_s = cpu_seconds();
+  RenderOptions settings;
+  settings.camera = silva_bench::camera_of(stage->scene, view);
+  settings.samples = 1;
+  settings.error = 0;
+  settings.sky_rays = 0;
+  settings.lod = options.lod == "auto";
+  commands::set_light(*stage, options, settings.camera.eye.z);
+  double least_cpu_s = 1e9, least_wall_s = 1e9;
+  image::Frame frame;
+  RenderStatistics statistics;
+  for (int run = 0; run < runs; ++run) {
+    const double cpu = cpu_seconds();
+    const auto begin = std::chrono::steady_clock::now();
+    statistics = {};
+    frame = render(stage->scene, *stage->tracer, *stage->light, stage->land, settings, {}, &statistics);
+    least_cpu_s = std::min(least_cpu_s, cpu_seconds() - cpu);
+    least_wall_s =
+        std::min(least_wall_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  }
+  const std::uint64_t peak = silvasim::base::peak_rss_bytes();
+  image::write(output, frame);
+  const auto& s = stage->seconds;
+  nlohmann::ordered_json json{{"plants", stage->scene.plants},
+                              {"frame_cpu_s", least_cpu_s},
+                              {"frame_s", least_wall_s},
+                              {"before_cpu_s", prepared_cpu_s},
+                              {"read_s", s.read},
+                              {"models_s", s.models},
+                              {"build_s", s.scene + s.tracer},
+                              {"light_s", s.light},
+                              {"shadow_rays", statistics.shadow_rays},
+                              {"exposure_stops", image::automatic_exposure(frame.colour)},
+                              {"peak_mb", static_cast<double>(peak) / 1e6}};
+  fmt::print("{}\n", json.dump());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  commands::StageOptions options = silva_bench::stage_options();
+  fs::path input, output;
+  std::size_t view = 0;
+  int runs = 1, threads = 0;
+  bool tone = false;
+  double exposure_stops = 0;
+  CLI::App app("Renders one picture as silvavis does, and tells what it cost.", "silva_frame");
+  app.add_option("input", input, "The ecosystem file (.silva), or a picture with --show")->required();
+  app.add_option("output", output, "The picture to write")->required();
+  app.add_option("--view", view, "0 bird's eye, 1 flight, 2 close")->check(CLI::Range(0, 2));
+  app.add_option("--backend", options.backend, "nested or embree")->check(CLI::IsMember({"nested", "embree"}));
+  app.add_option("--lod", options.lod, "auto or off")->check(CLI::IsMember({"auto", "off"}));
+  app.add_option("--runs", runs, "Pictures; the least time counts (default: 1)")->check(CLI::Range(1, 100));
+  app.add_option("--threads", threads, "Threads (default: one a core)");
+  app.add_flag("--show", tone, "Only halve and tone-map a picture");
+  app.add_option("--exposure", exposure_stops, "Stops, with --show");
+  silva_bench::add_options(app, options);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const silvasim::base::ThreadLimit limit(threads);
+    options.ecosystem = input;
+    if (tone)
+      show(input, output, exposure_stops);
+    else
+      measure(options, view, runs, output);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "silva_frame: error: %s\n", error.what());
+    return 1;
+  }
+}
