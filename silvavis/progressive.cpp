@@ -5,7 +5,9 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <utility>
 
 #include "silvasim/base/parallel.h"
 
@@ -24,12 +26,23 @@ int parts(int whole, int part) { return (whole + part - 1) / part; }
 // What is sampled after squares of that side.
 int finer(int stride) { return stride > 3 ? stride / 2 : 1; }
 
-// Blocks in an order whose every beginning is spread evenly: steps of the golden section, made coprime to the count.
-std::vector<std::size_t> spread_order(std::size_t count) {
-  std::size_t step = std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<double>(count) * 0.6180339887));
-  while (std::gcd(step, count) != 1) ++step;
-  std::vector<std::size_t> order(count);
-  for (std::size_t i = 0; i < count; ++i) order[i] = i * step % count;
+// Blocks in an order whose every beginning is spread evenly over the picture: that of Bayer's matrix (1973).
+std::vector<std::size_t> spread_order(int across, int down) {
+  std::vector<std::pair<std::uint32_t, std::size_t>> keys;
+  for (int y = 0; y < down; ++y) {
+    for (int x = 0; x < across; ++x) {
+      std::uint32_t key = 0;
+      for (int bit = 0; bit < 12; ++bit) {
+        const auto both = static_cast<std::uint32_t>((x ^ y) >> bit & 1),
+                   row = static_cast<std::uint32_t>(y >> bit & 1);
+        key = key << 2 | both << 1 | row;
+      }
+      keys.emplace_back(key, keys.size());
+    }
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<std::size_t> order;
+  for (const auto& [key, block] : keys) order.push_back(block);
   return order;
 }
 
@@ -148,8 +161,7 @@ void Progressive::begin(int stride) {
     image::Image squares(parts(width, stride), parts(height, stride), 3);
     if (!is_first) enlarge(squares_, static_cast<double>(stride_) / stride, squares);
     squares_ = std::move(squares);
-    order_ = spread_order(static_cast<std::size_t>(parts(squares_.width, side_px)) *
-                          static_cast<std::size_t>(parts(squares_.height, side_px)));
+    order_ = spread_order(parts(squares_.width, side_px), parts(squares_.height, side_px));
     done_ = 0;
   } else {
     enlarge(squares_, stride_, picture_);
@@ -168,7 +180,7 @@ void Progressive::begin(int stride) {
 
 // One more sample for all pixels that have not enough.
 void Progressive::begin_pass() {
-  order_ = spread_order(blocks_.size());
+  order_ = spread_order(parts(options_.camera.width, side_px), parts(options_.camera.height, side_px));
   std::erase_if(order_, [&](std::size_t i) {
     return std::all_of(blocks_[i].begin(), blocks_[i].end(), [&](const Pixel& p) { return has_enough(p, options_); });
   });
