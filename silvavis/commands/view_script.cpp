@@ -87,9 +87,10 @@ std::vector<ScriptStep> read_script(const std::filesystem::path& file) {
     std::string word, keys;
     if (!(words >> word)) continue;
     const auto wrong = [&](const std::string& right) {
-      base::add(errors, {file.string(), static_cast<int>(number), 0}, "\"" + word + "\" should read like: " + right);
+      base::add(errors, {file.string(), static_cast<int>(number), 0}, "\"" + line + "\" should read like: " + right);
     };
     ScriptStep step;
+    const std::size_t before = errors.size();
     const auto count = [&](int& value) { return words >> value && value >= 1 && value <= most_pictures; };
     const auto numbers = [&](auto&... values) { return ((words >> values && std::isfinite(values)) && ...); };
     if (word == "hold") {
@@ -120,7 +121,7 @@ std::vector<ScriptStep> read_script(const std::filesystem::path& file) {
                     "; there are hold, press, drag, wheel, resize and wait");
     }
     words.clear();
-    if (std::string rest; words >> rest && errors.empty()) wrong("nothing behind it, but there is \"" + rest + "\"");
+    if (std::string rest; words >> rest && errors.size() == before) wrong(line.substr(0, line.rfind(rest)));
     steps.push_back(step);
   }
   if (!errors.empty()) throw base::ConfigError(std::move(errors));
