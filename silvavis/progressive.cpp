@@ -110,7 +110,7 @@ double Progressive::samples_a_pixel() const {
   return static_cast<double>(samples_) / (static_cast<double>(options_.camera.width) * options_.camera.height);
 }
 
-const image::Image& Progressive::refine(double seconds) {
+void Progressive::refine(double seconds) {
   const Seconds until = now_s() + seconds;
   const bool is_first = stride_ == 0;
   if (is_first) {
@@ -134,7 +134,12 @@ const image::Image& Progressive::refine(double seconds) {
     }
     if (!finished_) work(until);
   }
-  if (stride_ > 1) enlarge(squares_, stride_, picture_);
+  enlarged_ = stride_ <= 1;
+}
+
+const image::Image& Progressive::picture() {
+  if (!enlarged_) enlarge(squares_, stride_, picture_);
+  enlarged_ = true;
   return picture_;
 }
 

@@ -1,6 +1,6 @@
 // A picture that is there at once and gets better: for a window or a browser, while someone flies through the scene.
 //
-// look() says where from. The first refine() after it returns a coarse picture, one sample for a square of pixels, as wide as the
+// look() says where from. The first refine() after it makes a coarse picture, one sample for a square of pixels, as wide as the
 // time allows; the next ones halve the squares, then give each pixel its samples one after another, blocks of pixels in an
 // order that is spread over the picture. A coarse ray is as wide as its square, so it meets simpler models, and all rays towards sun and
 // sky are as in the end: coarse and final picture are equally bright.
@@ -29,10 +29,14 @@ class Progressive {
   // Begins anew. Channels are not made (RenderOptions::aovs).
   void look(const Light& light, const RenderOptions& options);
 
-  // Works for about that long, and returns the picture as it then is.
-  const image::Image& refine(double seconds);
+  void refine(double seconds);  // works for about that long
 
-  const image::Image& picture() const { return picture_; }
+  // As it now is. Valid until the next call of look() or refine().
+  const image::Image& picture();
+  // The same as it was sampled while coarseness_px() is above 1, a pixel a square: quicker to tone and to send, for whoever
+  // enlarges it. The last squares may reach beyond the picture's right and lower edges.
+  const image::Image& squares() const { return squares_; }
+
   bool finished() const { return finished_; }
   int coarseness_px() const {
     return stride_;
@@ -63,6 +67,7 @@ class Progressive {
   int usual_stride_ = 0;          // of first pictures
   Seconds seconds_a_sample_ = 0;  // of first pictures, all threads together; 0: not known
   image::Image squares_;          // a pixel a square
+  bool enlarged_ = true;          // the picture holds what the squares do
   image::Image picture_;
   std::vector<std::vector<Pixel>> blocks_;
   std::vector<std::size_t> order_;  // blocks of this pass

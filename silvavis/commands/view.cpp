@@ -30,6 +30,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double picture_s = 0.09;       // ten pictures a second, and a little to spare
 constexpr double scripted_step_s = 0.1;  // what a picture counts under a script
+constexpr int pictures_a_rest = 3;
 constexpr double idle_s = 0.1, longest_step_s = 0.25;
 constexpr double turn_deg_s = 45, fast = 4, notch = 1.25;
 constexpr double stops_a_press = 0.25, sun_step_min = 30;
@@ -202,23 +203,33 @@ class Session {
     if (anew) {
       follow_height();
       progressive_.look(*stage_.light, settings_);
+      shown_camera_ = settings_.camera;
     }
     picture.light_s = seconds_since(mark);
     const std::uint64_t rays_before = rays();
-    progressive_.refine(std::max(0.02, picture_s - overhead_s_));
+    const double time_s = std::max(0.02, picture_s - overhead_s_);
+    progressive_.refine(time_s);
+    // At rest there is more time between two pictures, as long as the user lets it be.
+    for (int i = 1; i < pictures_a_rest && !anew && !progressive_.finished() && !window_.has_input(); ++i)
+      progressive_.refine(time_s);
     picture.trace_s = seconds_since(mark);
     picture.rays = rays() - rays_before;
     picture.coarseness_px = progressive_.coarseness_px();
     picture.anew = anew;
     expose();
-    const auto bytes = image::srgb_bytes(image::tone_mapped(progressive_.picture(), automatic_stops_ + user_stops_));
+    const image::Image& shown = as_sampled();
+    const auto bytes = image::srgb_bytes(image::tone_mapped(shown, automatic_stops_ + user_stops_));
     picture.tone_s = seconds_since(mark);
-    window_.show(bytes, settings_.camera.width, settings_.camera.height);
+    window_.show(bytes, shown.width, shown.height, progressive_.coarseness_px());
     window_.set_title(title(picture));
     picture.show_s = seconds_since(mark);
     overhead_s_ += 0.3 * (picture.tone_s + picture.show_s - overhead_s_);
     exposed_ = true;
     times_.add(picture);
+  }
+
+  const image::Image& as_sampled() {
+    return progressive_.coarseness_px() > 1 ? progressive_.squares() : progressive_.picture();
   }
 
   // The same picture with another exposure.
@@ -233,17 +244,9 @@ class Session {
   // The eye gets used to other light by and by; a finished picture has the exposure that `render` gives it.
   void expose() {
     if (options_.picture.exposure_stops) return;
-    const image::Image& picture = progressive_.picture();
-    if (progressive_.finished()) {
-      automatic_stops_ = image::automatic_exposure(picture);
-      return;
-    }
-    constexpr int every = 4;
-    image::Image few((picture.width + every - 1) / every, (picture.height + every - 1) / every, 3);
-    for (int y = 0; y < few.height; ++y)
-      for (int x = 0; x < few.width; ++x) std::copy_n(picture.at(x * every, y * every), 3, few.at(x, y));
-    const double wanted = image::automatic_exposure(few);
-    automatic_stops_ += (times_.pictures() == 0 ? 1.0 : 0.2) * (wanted - automatic_stops_);
+    const double wanted = image::automatic_exposure(as_sampled());
+    const bool at_once = times_.pictures() == 0 || progressive_.finished();
+    automatic_stops_ = at_once ? wanted : automatic_stops_ + 0.2 * (wanted - automatic_stops_);
   }
 
   std::string title(const PictureTimes& picture) const {
@@ -261,12 +264,12 @@ class Session {
   }
 
   void save() {
-    if (progressive_.picture().empty()) return;
+    if (times_.pictures() == 0) return;
     try {
       while (std::filesystem::exists(names_(next_name_))) ++next_name_;
       image::WriteOptions write = write_;
       write.exposure_stops = automatic_stops_ + user_stops_;
-      write.metadata = metadata_of(stage_, settings_.camera);
+      write.metadata = metadata_of(stage_, shown_camera_);
       image::Frame frame;
       frame.colour = progressive_.picture();
       image::write(names_(next_name_), frame, write);
@@ -298,7 +301,7 @@ class Session {
   FrameNames names_;
   silvavis::RenderOptions settings_;
   Progressive progressive_;
-  shade::Camera start_;
+  shade::Camera start_, shown_camera_;
   Pilot pilot_;
   std::optional<shade::Moment> moment_;
   double light_z_m_ = 0;

@@ -61,7 +61,7 @@ struct Window::Inner {
   SDL_Window* window = nullptr;
   SDL_Renderer* renderer = nullptr;
   SDL_Texture* texture = nullptr;
-  int texture_width = 0, texture_height = 0;
+  int texture_columns = 0, texture_rows = 0;
   std::string held;
   bool shift = false;
 
@@ -138,19 +138,26 @@ void Window::open(const std::string& title, int width_px, int height_px) {
 
 void Window::set_title(const std::string& title) { SDL_SetWindowTitle(inner_->window, title.c_str()); }
 
-void Window::show(const std::vector<std::uint8_t>& rgb, int width_px, int height_px) {
+void Window::show(const std::vector<std::uint8_t>& rgb, int columns, int rows, int side_px) {
   Inner& in = *inner_;
-  if (!in.texture || in.texture_width != width_px || in.texture_height != height_px) {
+  if (!in.texture || in.texture_columns != columns || in.texture_rows != rows) {
     if (in.texture) SDL_DestroyTexture(in.texture);
-    in.texture =
-        SDL_CreateTexture(in.renderer, SDL_PIXELFORMAT_RGB24, SDL_TEXTUREACCESS_STREAMING, width_px, height_px);
+    in.texture = SDL_CreateTexture(in.renderer, SDL_PIXELFORMAT_RGB24, SDL_TEXTUREACCESS_STREAMING, columns, rows);
     if (!in.texture) fail("cannot draw into the window");
-    in.texture_width = width_px;
-    in.texture_height = height_px;
+    SDL_SetTextureScaleMode(in.texture, SDL_ScaleModeLinear);
+    in.texture_columns = columns;
+    in.texture_rows = rows;
   }
-  SDL_UpdateTexture(in.texture, nullptr, rgb.data(), width_px * 3);
-  SDL_RenderCopy(in.renderer, in.texture, nullptr, nullptr);
+  const SDL_Rect place{0, 0, columns * side_px, rows * side_px};
+  SDL_UpdateTexture(in.texture, nullptr, rgb.data(), columns * 3);
+  SDL_RenderClear(in.renderer);
+  SDL_RenderCopy(in.renderer, in.texture, nullptr, &place);
   SDL_RenderPresent(in.renderer);
+}
+
+bool Window::has_input() {
+  SDL_PumpEvents();
+  return SDL_HasEvents(SDL_FIRSTEVENT, SDL_LASTEVENT) == SDL_TRUE;
 }
 
 Input Window::input(double wait_s) {

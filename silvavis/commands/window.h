@@ -42,11 +42,12 @@ class Window {
   void open(const std::string& title, int width_px, int height_px);
   void set_title(const std::string& title);
 
-  // 3 bytes a pixel, from the upper left; stretched to the window.
-  void show(const std::vector<std::uint8_t>& rgb, int width_px, int height_px);
+  // Columns x rows of 3 bytes, from the upper left, each of which covers `side_px` x `side_px` pixels of the window; smooth between.
+  void show(const std::vector<std::uint8_t>& rgb, int columns, int rows, int side_px = 1);
 
   // What happened since the last call; where nothing did, after that time at the latest.
   Input input(double wait_s = 0);
+  bool has_input();
 
   // As if the user did it.
   void send_key(Press press, bool down);

@@ -91,7 +91,8 @@ TEST(Progressive, EveryPixelHasAColourFromTheFirstPictureOn) {
     double before = 0;
     int coarseness = 1000;
     for (int frame = 0; !progressive.finished() && frame < 100'000; ++frame) {
-      const image::Image& picture = progressive.refine(0);
+      progressive.refine(0);
+      const image::Image& picture = progressive.picture();
       ASSERT_EQ(picture.width, width);
       ASSERT_EQ(picture.height, height);
       for (const float value : picture.pixels) ASSERT_TRUE(std::isfinite(value) && value > 0) << "in frame " << frame;
