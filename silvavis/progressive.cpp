@@ -99,14 +99,16 @@ void Progressive::look(const Light& light, const RenderOptions& options) {
   options_.aovs = false;
   square_options_ = options_;
   square_options_.samples = 1;
-  stride_ = 0;
+  stride_ = shown_stride_ = 0;
   samples_ = 0;
+  enlarged_ = true;
   finished_ = false;
   statistics_ = {};
 }
 
 double Progressive::samples_a_pixel() const {
-  if (stride_ > 1) return 1.0 / (stride_ * stride_);
+  if (stride_ == 0) return 0;
+  if (stride_ > 1) return 1.0 / (shown_stride_ * shown_stride_);
   return static_cast<double>(samples_) / (static_cast<double>(options_.camera.width) * options_.camera.height);
 }
 
@@ -134,11 +136,11 @@ void Progressive::refine(double seconds) {
     }
     if (!finished_) work(until);
   }
-  enlarged_ = stride_ <= 1;
+  if (stride_ > 1) enlarged_ = false;
 }
 
 const image::Image& Progressive::picture() {
-  if (!enlarged_) enlarge(squares_, stride_, picture_);
+  if (!enlarged_) enlarge(squares_, shown_stride_, picture_);
   enlarged_ = true;
   return picture_;
 }
@@ -159,17 +161,14 @@ Progressive::Seconds Progressive::foreseen(int stride) const {
 
 void Progressive::begin(int stride) {
   const int width = options_.camera.width, height = options_.camera.height;
-  const bool is_first = stride_ == 0;
-  if (is_first && (picture_.width != width || picture_.height != height)) picture_ = image::Image(width, height, 3);
+  if (stride_ == 0 && (picture_.width != width || picture_.height != height)) picture_ = image::Image(width, height, 3);
   if (stride > 1) {
-    // Where the finer squares are not there yet, the coarser ones show through.
-    image::Image squares(parts(width, stride), parts(height, stride), 3);
-    if (!is_first) enlarge(squares_, static_cast<double>(stride_) / stride, squares);
-    squares_ = std::move(squares);
-    order_ = spread_order(parts(squares_.width, side_px), parts(squares_.height, side_px));
+    finer_squares_ = image::Image(parts(width, stride), parts(height, stride), 3);
+    order_ = spread_order(parts(finer_squares_.width, side_px), parts(finer_squares_.height, side_px));
     done_ = 0;
   } else {
-    enlarge(squares_, stride_, picture_);
+    enlarge(squares_, shown_stride_, picture_);
+    enlarged_ = true;
     blocks_.clear();
     for (int top = 0; top < height; top += side_px) {
       for (int left = 0; left < width; left += side_px) {
@@ -214,21 +213,26 @@ void Progressive::work(Seconds until) {
     shadow_rays += sampler.statistics.shadow_rays;
   });
   done_ = std::min(next.load(), order_.size());
+  // A picture half of coarse and half of fine squares would look like a chequerboard.
+  if (stride_ > 1 && is_through()) {
+    std::swap(squares_, finer_squares_);
+    shown_stride_ = stride_;
+  }
   samples_ += samples;
   statistics_.eye_rays += eye_rays;
   statistics_.shadow_rays += shadow_rays;
 }
 
 void Progressive::fill_squares(Sampler& sampler, std::size_t block) {
-  const int across = parts(squares_.width, side_px);
+  const int across = parts(finer_squares_.width, side_px);
   const int left = static_cast<int>(block) % across * side_px, top = static_cast<int>(block) / across * side_px;
   std::vector<Pixel> pixels;
-  for (int y = top; y < std::min(top + side_px, squares_.height); ++y)
-    for (int x = left; x < std::min(left + side_px, squares_.width); ++x) pixels.push_back({x, y});
+  for (int y = top; y < std::min(top + side_px, finer_squares_.height); ++y)
+    for (int x = left; x < std::min(left + side_px, finer_squares_.width); ++x) pixels.push_back({x, y});
   std::vector<std::size_t> all(pixels.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   sampler.add(pixels, all, 1);
-  for (const Pixel& pixel : pixels) std::copy_n(&pixel.sum.x, 3, squares_.at(pixel.x, pixel.y));
+  for (const Pixel& pixel : pixels) std::copy_n(&pixel.sum.x, 3, finer_squares_.at(pixel.x, pixel.y));
 }
 
 std::size_t Progressive::fill_pixels(Sampler& sampler, std::size_t block) {

@@ -63,11 +63,12 @@ class Progressive {
   RenderOptions options_, square_options_;
   shade::Lens lens_{};
 
-  int stride_ = 0;
-  int usual_stride_ = 0;          // of first pictures
-  Seconds seconds_a_sample_ = 0;  // of first pictures, all threads together; 0: not known
-  image::Image squares_;          // a pixel a square
-  bool enlarged_ = true;          // the picture holds what the squares do
+  int stride_ = 0;                        // of what is being sampled; 0: nothing yet
+  int shown_stride_ = 0;                  // of squares_
+  int usual_stride_ = 0;                  // of first pictures
+  Seconds seconds_a_sample_ = 0;          // of first pictures, all threads together; 0: not known
+  image::Image squares_, finer_squares_;  // a pixel a square; the second while it is not through
+  bool enlarged_ = true;                  // the picture holds what the squares do
   image::Image picture_;
   std::vector<std::vector<Pixel>> blocks_;
   std::vector<std::size_t> order_;  // blocks of this pass

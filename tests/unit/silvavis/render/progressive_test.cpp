@@ -44,6 +44,18 @@ double mean_luminance(const image::Image& image) {
   return sum / (static_cast<double>(image.pixels.size()) / 3);
 }
 
+// Mean squared difference where the second is shifted.
+double difference(const image::Image& a, const image::Image& b, int right, int down) {
+  double sum = 0;
+  constexpr int rim = 16;
+  for (int y = rim; y < a.height - rim; ++y)
+    for (int x = rim; x < a.width - rim; ++x) {
+      const double d = static_cast<double>(a.at(x, y)[1] - b.at(x + right, y + down)[1]);
+      sum += d * d;
+    }
+  return sum / ((a.width - 2.0 * rim) * (a.height - 2.0 * rim));
+}
+
 }  // namespace
 
 TEST(Progressive, IsInTheEndWhatRenderGives) {
@@ -134,6 +146,28 @@ TEST(Progressive, CoarsePicturesAreAsBrightAsTheFinishedOne) {
     for (const auto& [stride, brightness] : coarse) {
       EXPECT_NEAR(brightness / finished, 1, 0.02) << stride << " pixels wide, at " << away << " m";
     }
+  }
+}
+
+TEST(Progressive, CoarsePicturesShowEverythingInItsPlace) {
+  const scene::Scene scene = grown_wood(10, 8000);
+  const auto tracer = accel::make_nested(scene);
+  const Light light{shade::SkyOptions{}};
+  RenderOptions options = small_picture(scene, 200);
+  options.camera.width = 640;
+  options.camera.height = 360;
+  const image::Image finished = render(scene, *tracer, light, {}, options).colour;
+  Progressive progressive(scene, *tracer, plain);
+  progressive.look(light, options);
+  progressive.refine(0);
+  for (int coarseness = 1000; progressive.coarseness_px() > 1; progressive.refine(0)) {
+    if (progressive.coarseness_px() == coarseness) continue;
+    coarseness = progressive.coarseness_px();
+    const image::Image& coarse = progressive.picture();
+    const double in_place = difference(coarse, finished, 0, 0);
+    const int shift = (coarseness + 1) / 2 + 1;
+    for (const auto& [right, down] : {std::pair{shift, 0}, {-shift, 0}, {0, shift}, {0, -shift}})
+      EXPECT_GT(difference(coarse, finished, right, down), in_place) << coarseness << ": " << right << ", " << down;
   }
 }
 
