@@ -30,6 +30,7 @@ if(SILVA_VIS)
   find_package(TinyGLTF REQUIRED)
   find_library(NOVA_LIBRARY nova REQUIRED)
   find_package(meshoptimizer REQUIRED)
+  find_package(SDL2 CONFIG REQUIRED)
 endif()
 
 if(SILVA_TESTS)

@@ -13,6 +13,7 @@
 #include "silvavis/commands/fly.h"
 #include "silvavis/commands/info.h"
 #include "silvavis/commands/render.h"
+#include "silvavis/commands/view.h"
 
 namespace {
 
@@ -21,6 +22,7 @@ using namespace silvavis::commands;
 struct Options {
   RenderOptions render;
   FlyOptions fly;
+  ViewOptions view;
   InfoOptions info;
   DiffOptions diff;
 };
@@ -69,13 +71,14 @@ void add_stage(CLI::App& command, StageOptions& o) {
       ->check(CLI::Range(1, 1024));
 }
 
-// What render and fly share; returns --fov.
+// How a picture is made, for render, fly and view; returns --fov.
 CLI::Option* add_picture(CLI::App* command, RenderOptions& o) {
   add_stage(*command, o.stage);
   CLI::Option* fov = command->add_option("--fov", o.fov_deg, "Horizontal angle of view in degrees (default: 50)")
                          ->check(CLI::Range(0.01, 170.0));
-  command->add_option("--size", o.size, "WIDTHxHEIGHT in pixels (default: 1920x1080)");
-  command->add_option("--spp", o.samples, "Samples a pixel, at most (default: 16)")->check(CLI::Range(1, 65536));
+  command->add_option("--size", o.size, "WIDTHxHEIGHT in pixels (default: " + o.size + ")");
+  command->add_option("--spp", o.samples, "Samples a pixel, at most (default: " + std::to_string(o.samples) + ")")
+      ->check(CLI::Range(1, 65536));
   command
       ->add_option("--error", o.error,
                    "A pixel has enough samples below this standard error; 0: all take --spp (default: 0.02)")
@@ -85,28 +88,36 @@ CLI::Option* add_picture(CLI::App* command, RenderOptions& o) {
   command->add_flag("!--no-shadows", o.shadows, "The sun casts no shadow");
   command->add_option("--exposure", o.exposure_stops,
                       "Stops by which the picture is lightened (default: by its brightness)");
+  return fov;
+}
+
+void add_channels(CLI::App* command, RenderOptions& o) {
   command
       ->add_option(
           "--aov", o.aovs,
           "Also keep depth, normal, species, plant-id (commas); EXR holds them, other pictures put them beside")
       ->delimiter(',')
       ->check(CLI::IsMember({"depth", "normal", "species", "plant-id"}));
-  return fov;
 }
 
-void add_render(CLI::App& app, Options& options) {
-  RenderOptions& o = options.render;
-  CLI::App* command = app.add_subcommand("render", "Render a picture");
-  CLI::Option* fov = add_picture(command, o);
-  command
-      ->add_option("-o,--output", o.output, "Picture to write: .exr (linear), .png, .jpg or .tif (as the eye sees it)")
-      ->required();
+void add_camera(CLI::App* command, RenderOptions& o, CLI::Option* fov) {
   CLI::Option* camera = command->add_option("--camera", o.camera, "Camera by name: cameras.xml#valley")->excludes(fov);
   command
       ->add_option("--eye", o.eye,
                    "E,N,H of the eye in the scene's metres; +H is above the ground (default: the whole scene)")
       ->excludes(camera);
   command->add_option("--look-at", o.look_at, "E,N,H of the picture's centre")->excludes(camera);
+}
+
+void add_render(CLI::App& app, Options& options) {
+  RenderOptions& o = options.render;
+  CLI::App* command = app.add_subcommand("render", "Render a picture");
+  CLI::Option* fov = add_picture(command, o);
+  add_channels(command, o);
+  command
+      ->add_option("-o,--output", o.output, "Picture to write: .exr (linear), .png, .jpg or .tif (as the eye sees it)")
+      ->required();
+  add_camera(command, o, fov);
   command->callback([&o] { render(o); });
 }
 
@@ -114,6 +125,7 @@ void add_fly(CLI::App& app, Options& options) {
   FlyOptions& o = options.fly;
   CLI::App* command = app.add_subcommand("fly", "Render the frames of a flight");
   CLI::Option* fov = add_picture(command, o.picture);
+  add_channels(command, o.picture);
   command->add_option("path", o.path, "The flight: .xml, or a line of .geojson")->required();
   command->add_option("-o,--output", o.output, "Frames to write: frames/%04d.png, or .exr, .jpg, .tif")->required();
   command->add_option("--fps", o.fps, "Frames a second (default: the path's, or 25)");
@@ -131,6 +143,23 @@ void add_fly(CLI::App& app, Options& options) {
     o.fov_given = fov->count() > 0;
     fly(o);
   });
+}
+
+void add_view(CLI::App& app, Options& options) {
+  ViewOptions& o = options.view;
+  o.picture.size = "960x540";
+  o.picture.samples = 64;
+  o.picture.output = "view-%04d.png";
+  CLI::App* command = app.add_subcommand("view", "Fly through an ecosystem in a window");
+  add_camera(command, o.picture, add_picture(command, o.picture));
+  command->add_option("-o,--output", o.picture.output,
+                      "Names of what P saves: .png, .exr, .jpg or .tif (default: view-%04d.png)");
+  command->add_option("--script", o.script,
+                      "Steps to take instead of a user's: lines like \"hold W 20\" and \"press P\"");
+  command->add_option("--frames", o.frames, "End after so many pictures, or once the picture is finished")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40));
+  command->footer(view_keys);
+  command->callback([&o] { view(o); });
 }
 
 void add_info(CLI::App& app, Options& options) {
@@ -167,6 +196,7 @@ int main(int argc, char** argv) {
   Options options;
   add_render(app, options);
   add_fly(app, options);
+  add_view(app, options);
   add_info(app, options);
   add_diff(app, options);
   app.footer("silvavis COMMAND --help tells a command's options.");

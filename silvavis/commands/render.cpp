@@ -19,6 +19,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using silvasim::base::ConfigError;
 
+}  // namespace
+
 shade::Camera camera_for(const RenderOptions& options, const scene::Scene& scene) {
   shade::Camera camera;
   parse_size(options.size, camera.width, camera.height);
@@ -43,8 +45,6 @@ shade::Camera camera_for(const RenderOptions& options, const scene::Scene& scene
   camera.fov_deg = options.fov_deg;
   return camera;
 }
-
-}  // namespace
 
 // What was asked for stays; empty channels are not written.
 void keep_asked(image::Frame& frame, const std::vector<std::string>& aovs) {

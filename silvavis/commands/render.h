@@ -27,7 +27,8 @@ struct RenderOptions {
 
 void render(const RenderOptions& options);
 
-// What `fly` shares with it: how a picture is sampled, which channels are kept, and what is written beside its pixels.
+// What `fly` and `view` share with it: where from and how a picture is sampled, which channels are kept, and what is written beside its pixels.
+shade::Camera camera_for(const RenderOptions& options, const scene::Scene& scene);
 silvavis::RenderOptions settings_of(const RenderOptions& options);
 void keep_asked(image::Frame& frame, const std::vector<std::string>& aovs);
 std::map<std::string, std::string> metadata_of(const Stage& stage, const shade::Camera& camera);

@@ -36,6 +36,13 @@ shade::Moment moment_at(double seconds) {
 
 }  // namespace
 
+shade::Moment later(const shade::Moment& moment, double minutes, double longitude_deg) {
+  const int offset_min = shade::offset_of(moment, longitude_deg);
+  shade::Moment result = moment_at(seconds_of(moment, longitude_deg) + 60 * (minutes + offset_min));
+  result.offset_min = offset_min;
+  return result;
+}
+
 SunWay::SunWay(const StageOptions& options, const std::string& sun_to, const Stage& stage)
     : still_(stage.sun),
       moves_(!sun_to.empty()),

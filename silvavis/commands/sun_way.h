@@ -7,6 +7,9 @@
 
 namespace silvavis::commands {
 
+// That many minutes later (or earlier), at the same offset from Greenwich.
+shade::Moment later(const shade::Moment& moment, double minutes, double longitude_deg);
+
 class SunWay {
  public:
   // `sun_to` empty: the sun stays. Errors: base::ConfigError where --sun-direction says where it stands.

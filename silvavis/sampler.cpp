@@ -1,0 +1,266 @@
+#include "silvavis/sampler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "silvasim/base/random.h"
+
+namespace silvavis {
+
+namespace {
+
+constexpr int least_samples = 16;
+
+// The pixels' filter is a Gaussian of standard deviation 0.45 pixels, cut at 1.5: samples are drawn from it and all count
+// the same (Ernst, Stamminger and Greiner 2006, filter importance sampling).
+float filter_offset(float u) {
+  constexpr float deviation = 0.45f, most = 1.5f;
+  // Acklam's rational approximation would be finer; a sum of logistic form is within 2 % and has no tails to cut.
+  const float clamped = std::clamp(u, 1e-4f, 1 - 1e-4f);
+  return std::clamp(deviation * 0.5876f * std::log(clamped / (1 - clamped)), -most, most);
+}
+
+V3 cosine_weighted(const V3& normal, float u, float v) {
+  const float r = std::sqrt(u), angle = 2 * std::numbers::pi_v<float> * v;
+  // An orthonormal frame without branches at the poles (Duff et al. 2017).
+  const float sign = std::copysign(1.0f, normal.z);
+  const float a = -1 / (sign + normal.z), b = normal.x * normal.y * a;
+  const V3 x(1 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x),
+      y(b, sign + normal.y * normal.y * a, -normal.y);
+  const V3 d = x * (r * std::cos(angle)) + y * (r * std::sin(angle)) + normal * std::sqrt(std::max(0.0f, 1 - u));
+  return d.normalized();
+}
+
+float fresnel_of_water(float cosine) {
+  const float grazing = 1 - std::clamp(cosine, 0.0f, 1.0f);
+  return 0.02f + 0.98f * grazing * grazing * grazing * grazing * grazing;  // Schlick 1994
+}
+
+// Where a shadow ray may begin: off the surface by what rounding needs.
+double lift(const accel::Hit& hit) { return 2e-3 + 1e-6 * hit.distance; }
+
+}  // namespace
+
+bool has_enough(const Pixel& pixel, const RenderOptions& options) {
+  if (pixel.samples >= options.samples) return true;
+  if (pixel.samples % samples_a_pass != 0) return false;
+  // Fewer would end where chance made a pixel dark and even, and darken the picture.
+  if (options.error <= 0 || pixel.samples < least_samples) return false;
+  const double n = pixel.samples, mean = pixel.tone / n;
+  const double variance = std::max(0.0, pixel.tone_squared / n - mean * mean) / (n - 1);
+  return std::sqrt(variance) < options.error;
+}
+
+Sampler::Sampler(const scene::Scene& scene, const accel::Tracer& tracer, const Light& light, const shade::Land& land,
+                 const RenderOptions& options, const shade::Lens& lens, image::Frame* channels)
+    : scene_(scene), tracer_(tracer), light_(light), land_(land), options_(options), lens_(lens), channels_(channels) {
+  // What a surface sees where its way to the sky is barred: leaves and ground in half shade.
+  const Rgb lit = light.sky.sun_irradiance() * std::max(light.sky.sun_direction().z, 0.0f) + light.sky.sky_irradiance();
+  surroundings_ = lit * Rgb(0.045f, 0.070f, 0.025f) * (0.35f / std::numbers::pi_v<float>);
+  eye_height_ = static_cast<float>(std::max(0.0, lens.eye.z - static_cast<double>(scene.ground.pyramid.origin_m)));
+}
+
+void Sampler::add(std::span<Pixel> pixels, std::span<const std::size_t> open, int count) {
+  samples_.clear();
+  for (const std::size_t i : open) {
+    const int more = std::min(count, options_.samples - pixels[i].samples);
+    for (int k = 0; k < more; ++k) {
+      samples_.push_back(sample_of(pixels[i], pixels[i].samples + k));
+      samples_.back().pixel = i;
+    }
+  }
+  rays_.resize(samples_.size());
+  hits_.resize(samples_.size());
+  for (std::size_t i = 0; i < samples_.size(); ++i) rays_[i] = samples_[i].ray;
+  tracer_.nearest(rays_, hits_);
+  statistics.eye_rays += rays_.size();
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    samples_[i].hit = hits_[i];
+    if (hits_[i].surface != accel::Surface::none)
+      samples_[i].point = shade::surface_at(scene_, land_, rays_[i], hits_[i]);
+  }
+  mirror_water();
+  add_sun();
+  add_sky();
+  for (const Sample& sample : samples_) finish(sample, pixels[sample.pixel]);
+}
+
+Sampler::Sample Sampler::sample_of(const Pixel& pixel, int number) const {
+  silvasim::base::Stream random(options_.seed, silvasim::base::Purpose::picture, static_cast<std::uint32_t>(pixel.x),
+                                static_cast<std::uint32_t>(pixel.y), static_cast<std::uint32_t>(number));
+  Sample sample;
+  for (float& draw : sample.draws) draw = random.next_float();
+  float dx = 0, dy = 0;
+  if (options_.samples > 1) {
+    // An even sequence (Roberts 2018), shifted by pixel.
+    silvasim::base::Stream shift(options_.seed, silvasim::base::Purpose::picture, static_cast<std::uint32_t>(pixel.x),
+                                 static_cast<std::uint32_t>(pixel.y), 0xFFFFFFFFu);
+    const float u = shift.next_float() + 0.7548777f * static_cast<float>(number),
+                v = shift.next_float() + 0.5698403f * static_cast<float>(number);
+    dx = filter_offset(u - std::floor(u));
+    dy = filter_offset(v - std::floor(v));
+  }
+  sample.offset = dx * dx + dy * dy;
+  const shade::CameraRay ray =
+      shade::ray_through(lens_, pixel.x + 0.5 + static_cast<double>(dx), pixel.y + 0.5 + static_cast<double>(dy));
+  sample.ray.origin = ray.origin;
+  sample.ray.direction = ray.direction;
+  if (options_.lod) sample.ray.spread = static_cast<float>(lens_.footprint_rad);
+  return sample;
+}
+
+// What leaves a surface is as wide as the ray that came: both then meet the same level.
+float Sampler::width_at(const Sample& sample) const {
+  return sample.ray.spread * static_cast<float>(sample.hit.distance);
+}
+
+// Water shows what it mirrors: the sky, or dark trees at its far shore.
+void Sampler::mirror_water() {
+  rays_.clear();
+  askers_.clear();
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    if (samples_[i].hit.surface == accel::Surface::none || !samples_[i].point.water) continue;
+    const V3 in = samples_[i].ray.direction;
+    // Ripples: a slight tilt, other for each sample.
+    const V3 normal = V3((samples_[i].draws[2] - 0.5f) * 0.03f, (samples_[i].draws[3] - 0.5f) * 0.03f, 1).normalized();
+    V3 out = in - normal * (2 * in.dot(normal));
+    out.z = std::max(out.z, 0.002f);
+    accel::Ray ray;
+    ray.origin = samples_[i].point.at + V3d(0, 0, 0.01);
+    ray.direction = out.normalized();
+    ray.width_m = width_at(samples_[i]);
+    ray.spread = samples_[i].ray.spread;
+    rays_.push_back(ray);
+    askers_.push_back(i);
+  }
+  if (rays_.empty()) return;
+  hits_.resize(rays_.size());
+  tracer_.nearest(rays_, hits_);
+  statistics.eye_rays += rays_.size();
+  for (std::size_t k = 0; k < rays_.size(); ++k) {
+    Sample& sample = samples_[askers_[k]];
+    Rgb seen = light_.sky.radiance(rays_[k].direction);
+    if (hits_[k].surface != accel::Surface::none) {
+      const shade::SurfacePoint far = shade::surface_at(scene_, land_, rays_[k], hits_[k]);
+      const float sunny = std::max(0.0f, far.normal.dot(light_.sky.sun_direction()));
+      seen = far.reflectance * (light_.sky.sun_irradiance() * (0.6f * sunny) + light_.sky.sky_irradiance() * 0.5f) /
+             std::numbers::pi_v<float>;
+    }
+    sample.light += seen * fresnel_of_water(-sample.ray.direction.z);
+  }
+}
+
+void Sampler::add_sun() {
+  const V3 sun = light_.sky.sun_direction();
+  if (luminance(light_.sky.sun_irradiance()) <= 0) return;
+  rays_.clear();
+  askers_.clear();
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const Sample& sample = samples_[i];
+    if (sample.hit.surface == accel::Surface::none) continue;
+    const float facing = sample.point.normal.dot(sun);
+    if (facing <= 0 && luminance(sample.point.transmittance) <= 0) continue;
+    accel::Ray ray;
+    if (!shade::ray_from(sample.point, sample.hit, sun, lift(sample.hit), ray) && options_.sun_shadows) continue;
+    ray.width_m = width_at(sample);
+    rays_.push_back(ray);
+    askers_.push_back(i);
+  }
+  shaded_.assign(rays_.size(), 0);
+  if (options_.sun_shadows) {
+    tracer_.occluded(rays_, shaded_);
+    statistics.shadow_rays += rays_.size();
+  }
+  for (std::size_t k = 0; k < rays_.size(); ++k) {
+    if (shaded_[k]) continue;
+    Sample& sample = samples_[askers_[k]];
+    const float facing = sample.point.normal.dot(sun);
+    const Rgb& share = facing > 0 ? sample.point.reflectance : sample.point.transmittance;
+    sample.light += share * light_.sky.sun_irradiance() * (std::abs(facing) / std::numbers::pi_v<float>);
+  }
+}
+
+void Sampler::add_sky() {
+  if (options_.sky_rays == 0) {
+    for (Sample& sample : samples_) {
+      if (sample.hit.surface == accel::Surface::none) continue;
+      sample.light += (sample.point.reflectance * light_.sky.irradiance(sample.point.normal) +
+                       sample.point.transmittance * light_.sky.irradiance(-sample.point.normal)) *
+                      (0.6f / std::numbers::pi_v<float>);
+    }
+    return;
+  }
+  for (int number = 0; number < options_.sky_rays; ++number) {
+    rays_.clear();
+    askers_.clear();
+    shares_.clear();
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      const Sample& sample = samples_[i];
+      if (sample.hit.surface == accel::Surface::none) continue;
+      // Light from the one side or from the other, by how much each counts.
+      const float front = luminance(sample.point.reflectance), back = luminance(sample.point.transmittance);
+      if (front + back <= 0) continue;
+      const float share = front / (front + back);
+      const bool through = sample.draws[1] >= share;
+      const float v =
+          through ? (sample.draws[1] - share) / std::max(1 - share, 1e-6f) : sample.draws[1] / std::max(share, 1e-6f);
+      const float u = sample.draws[0] + 0.618034f * static_cast<float>(number);
+      const Rgb weight = (through ? sample.point.transmittance / std::max(1 - share, 1e-6f)
+                                  : sample.point.reflectance / std::max(share, 1e-6f)) /
+                         static_cast<float>(options_.sky_rays);
+      const V3 skyward = cosine_weighted(through ? -sample.point.normal : sample.point.normal, u - std::floor(u),
+                                         std::min(v, 0.999999f));
+      accel::Ray ray;
+      if (!shade::ray_from(sample.point, sample.hit, skyward, lift(sample.hit), ray)) {
+        samples_[i].light += weight * surroundings_;
+        continue;
+      }
+      ray.width_m = width_at(sample);
+      rays_.push_back(ray);
+      askers_.push_back(i);
+      shares_.push_back(weight);
+    }
+    shaded_.assign(rays_.size(), 0);
+    tracer_.occluded(rays_, shaded_);
+    statistics.shadow_rays += rays_.size();
+    for (std::size_t k = 0; k < rays_.size(); ++k)
+      samples_[askers_[k]].light += shares_[k] * (shaded_[k] ? surroundings_ : light_.sky.radiance(rays_[k].direction));
+  }
+}
+
+void Sampler::finish(const Sample& sample, Pixel& pixel) {
+  const bool sky = sample.hit.surface == accel::Surface::none;
+  const Rgb seen =
+      sky ? light_.sky.radiance_with_disc(sample.ray.direction)
+          : light_.haze.apply(sample.light, static_cast<float>(sample.hit.distance), eye_height_, sample.ray.direction);
+  pixel.sum += seen;
+  const double tone = std::sqrt(std::max(0.0, static_cast<double>(luminance(seen))));
+  pixel.tone += tone;
+  pixel.tone_squared += tone * tone;
+  ++pixel.samples;
+  if (channels_ && options_.aovs && sample.offset < pixel.nearest_offset) {
+    pixel.nearest_offset = sample.offset;
+    keep_channels(pixel, sample);
+  }
+}
+
+void Sampler::keep_channels(const Pixel& pixel, const Sample& sample) {
+  const std::size_t i = static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(options_.camera.width) +
+                        static_cast<std::size_t>(pixel.x);
+  const bool sky = sample.hit.surface == accel::Surface::none;
+  *channels_->depth.at(pixel.x, pixel.y) = static_cast<float>(sample.hit.distance);
+  const V3 normal = sky ? V3(0, 0, 0) : sample.point.normal;
+  std::copy_n(&normal.x, 3, channels_->normal.at(pixel.x, pixel.y));
+  channels_->species[i] = sky ? image::species_sky : sample.point.water ? image::species_water : image::species_ground;
+  channels_->plants[i] = image::no_plant;
+  if (sample.hit.surface == accel::Surface::plant) {
+    const scene::PlantLayer& layer = scene_.layers[sample.hit.layer];
+    const std::size_t position = layer.position(sample.hit.column, sample.hit.row);
+    const std::uint32_t site = layer.tile_sites[layer.tiles[position]].site_ids[sample.hit.site_slot];
+    channels_->species[i] = static_cast<std::uint16_t>(layer.first_species + sample.hit.species);
+    channels_->plants[i] = static_cast<std::uint32_t>(layer.first_plant + layer.first_slot[position] + site);
+  }
+}
+
+}  // namespace silvavis
