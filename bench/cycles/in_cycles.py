@@ -265,6 +265,8 @@ def set_render(scene, asked):
     render.image_settings.file_format = "OPEN_EXR"
     render.image_settings.color_depth = "32"
     render.image_settings.exr_codec = "ZIP"
+    render.image_settings.use_zbuffer = True
+    scene.view_layers[0].use_pass_z = True
     cycles.device = "CPU"
     cycles.samples = asked.samples
     cycles.use_adaptive_sampling = cycles.use_denoising = False
@@ -278,6 +280,7 @@ def set_render(scene, asked):
 
 def main():
     asked = options()
+    asked.folder = os.path.abspath(asked.folder)
     begin = time.monotonic()
     with open(os.path.join(asked.folder, "scene.json"), encoding="utf-8") as file:
         described = json.load(file)
