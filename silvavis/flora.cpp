@@ -16,6 +16,7 @@
 #include "silvavis/impostor_of.h"
 #include "silvavis/level_light.h"
 #include "silvavis/levels/thin.h"
+#include "silvavis/scene/instance.h"
 
 namespace silvavis {
 
@@ -54,24 +55,24 @@ std::shared_ptr<const scene::PlantModel> packed_with_levels(const assets::Model&
   auto full = std::make_shared<scene::PlantModel>(accel::pack(model));
   full->leaf_m = levels::leaf_size(model);
   if (!levels) return full;
-  const double brightness = lit_brightness(full);
-  auto impostor = std::make_shared<scene::Impostor>(impostor_of(*full));
+  const auto impostor = std::make_shared<const scene::Impostor>(impostor_of(*full));
+  std::optional<double> brightness;
   std::vector<std::shared_ptr<const scene::PlantModel>> coarser;
   for (double share = 1.0 / 8; static_cast<double>(model.triangles.size()) * share > 60; share /= 8) {
-    if (full->leaf_m * static_cast<float>(0.7 / std::sqrt(share)) > impostor->texel_m) break;
+    const auto leaf_m = full->leaf_m * static_cast<float>(0.7 / std::sqrt(share));
+    if (leaf_m > scene::texels_a_pixel * impostor->texel_m) break;
     const levels::Thinned simpler = levels::thinned(model, share);
     // Wood alone may vanish.
     if (simpler.model.triangles.size() < 8) break;
     auto level = std::make_shared<scene::PlantModel>(accel::pack(simpler.model, full->looks));
-    level->leaf_m = full->leaf_m * std::max(simpler.enlarged, static_cast<float>(0.7 / std::sqrt(share)));
+    level->leaf_m = std::max(full->leaf_m * simpler.enlarged, leaf_m);
+    if (!brightness) brightness = lit_brightness(full);
     const double own = lit_brightness(level);
-    if (own > 0) level->tint = static_cast<float>(std::clamp(brightness / own, 0.5, 2.0));
+    if (own > 0) level->tint = static_cast<float>(std::clamp(*brightness / own, 0.5, 2.0));
     coarser.push_back(std::move(level));
   }
   full->coarser = std::move(coarser);
   full->impostor = impostor;
-  const double own = lit_brightness(full, 1e6f);
-  if (own > 0) impostor->tint = static_cast<float>(std::clamp(brightness / own, 0.5, 2.0));
   return full;
 }
 

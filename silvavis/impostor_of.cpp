@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
-#include <vector>
 
 #include "silvasim/base/random.h"
 #include "silvavis/accel/nested.h"
@@ -16,133 +14,122 @@ namespace {
 using scene::Impostor;
 using scene::ImpostorView;
 
-constexpr double texels_from_side = 1000;  // of a grid seen from the side, about
-constexpr int rays_across = 2, rays_a_texel = rays_across * rays_across;
-constexpr int shades_a_texel = 2;  // of the maps of depth towards the lamps, along a texel's side
+constexpr double texels_from_side = 1000;                                         // of a grid seen from the side, about
+constexpr std::size_t rays_across = 4, rays_a_block = rays_across * rays_across;  // of four texels
+constexpr std::size_t lamps = Impostor::lamp_bands * Impostor::lamp_azimuths;
 
-void set_measures(const scene::PlantModel& model, Impostor& impostor) {
+const std::array<V3, lamps>& lamp_directions() {
+  static const std::array<V3, lamps> directions = [] {
+    std::array<V3, lamps> all;
+    for (std::size_t lamp = 0; lamp < lamps; ++lamp)
+      all[lamp] = scene::lamp_direction(static_cast<int>(lamp) / Impostor::lamp_azimuths,
+                                        static_cast<int>(lamp) % Impostor::lamp_azimuths);
+    return all;
+  }();
+  return directions;
+}
+
+Impostor empty_impostor(const scene::PlantModel& model) {
+  Impostor impostor;
   impostor.radius_m = std::max(model.reach_m, 1e-3f) * 1.001f;
   impostor.least_m = model.least.z;
   impostor.most_m = std::max(model.most.z, model.least.z + 1e-3f);
   const double width = 2 * static_cast<double>(impostor.radius_m),
                height = static_cast<double>(impostor.most_m - impostor.least_m);
-  impostor.texel_m = static_cast<float>(std::max(std::sqrt(width * height / texels_from_side), height / 200));
-  impostor.columns =
-      std::max(2u, static_cast<std::uint32_t>(std::lround(width / static_cast<double>(impostor.texel_m))));
+  // Neither a blade nor a disc makes the grid long.
+  impostor.texel_m =
+      static_cast<float>(std::max({std::sqrt(width * height / texels_from_side), height / 200, width / 200}));
+  const auto even = [&](double length) {
+    return 2 *
+           std::max(1u, static_cast<std::uint32_t>(std::lround(length / static_cast<double>(impostor.texel_m) / 2)));
+  };
+  impostor.columns = even(width);
   std::uint32_t texels = 0;
   for (int e = 0; e < Impostor::elevations; ++e) {
     const ImpostorView view(impostor, scene::impostor_direction(e, 0));
     const auto k = static_cast<std::size_t>(e);
-    impostor.rows[k] =
-        std::max(2u, static_cast<std::uint32_t>(std::lround((view.top_m - view.bottom_m) / impostor.texel_m)));
+    impostor.rows[k] = even(static_cast<double>(view.top_m - view.bottom_m));
     impostor.first[k] = texels;
     texels += impostor.rows[k] * impostor.columns * Impostor::sides;
   }
   impostor.covered.resize(texels);
-  impostor.points.resize(texels);
+  impostor.points.resize(texels / 4 * Impostor::points_a_block);
+  return impostor;
 }
 
-// How deep the light of each lamp reaches into the model, over a grid finer than an impostor's.
-class Shades {
- public:
-  Shades(const scene::PlantModel& model, const Impostor& impostor) : bias_m_(0.5f * model.leaf_m) {
-    std::vector<accel::ModelRay> rays;
-    std::vector<accel::ModelPoint> met;
-    for (int lamp = 0; lamp < Impostor::lamp_bands * Impostor::lamp_azimuths; ++lamp) {
-      const V3 direction = -scene::lamp_direction(lamp / Impostor::lamp_azimuths, lamp % Impostor::lamp_azimuths);
-      Map map{ImpostorView(impostor, direction), direction, impostor.columns * shades_a_texel, 0, {}};
-      map.rows = static_cast<std::uint32_t>(
-          std::max(2.0f, (map.view.top_m - map.view.bottom_m) / impostor.texel_m * shades_a_texel));
-      rays.clear();
-      for (std::uint32_t row = 0; row < map.rows; ++row) {
-        for (std::uint32_t column = 0; column < map.columns; ++column) {
-          const float across =
-              ((static_cast<float>(column) + 0.5f) / static_cast<float>(map.columns) * 2 - 1) * impostor.radius_m;
-          const float up = map.view.bottom_m + (static_cast<float>(row) + 0.5f) / static_cast<float>(map.rows) *
-                                                   (map.view.top_m - map.view.bottom_m);
-          rays.push_back({map.view.point(across, up), direction, -1e30f});
-        }
+// The lamps that the model itself hides from a point of its own.
+std::uint64_t barred_from(const scene::PlantModel& model, std::uint32_t slot, const V3& at) {
+  const V3 a = model.position_of(slot, 0);
+  const V3 plane = (model.position_of(slot, 1) - a).cross(model.position_of(slot, 2) - a).normalized();
+  std::array<accel::ModelRay, lamps> rays;
+  for (std::size_t lamp = 0; lamp < lamps; ++lamp) {
+    const V3& towards = lamp_directions()[lamp];
+    constexpr float lift_m = 2e-3f;
+    rays[lamp] = {at + plane * (plane.dot(towards) > 0 ? lift_m : -lift_m), towards, 0};
+  }
+  std::array<std::uint8_t, lamps> answers;
+  accel::bar_model(model, rays, answers);
+  std::uint64_t barred = 0;
+  for (std::size_t lamp = 0; lamp < lamps; ++lamp) barred |= std::uint64_t{answers[lamp]} << lamp;
+  return barred;
+}
+
+// The texels of one grid and their points.
+void fill(const scene::PlantModel& model, int elevation, int side, Impostor& impostor) {
+  const V3 direction = scene::impostor_direction(elevation, side);
+  const ImpostorView view(impostor, direction);
+  const std::uint32_t rows = impostor.rows[static_cast<std::size_t>(elevation)], columns = impostor.columns;
+  const std::uint32_t first =
+      impostor.first[static_cast<std::size_t>(elevation)] + static_cast<std::uint32_t>(side) * rows * columns;
+  const float wide = 2 * impostor.radius_m / static_cast<float>(columns),
+              high = (view.top_m - view.bottom_m) / static_cast<float>(rows);
+  std::array<accel::ModelRay, rays_a_block> rays;
+  std::array<accel::ModelPoint, rays_a_block> met;
+  for (std::uint32_t row = 0; row < rows; row += 2) {
+    for (std::uint32_t column = 0; column < columns; column += 2) {
+      const std::uint32_t block = first / 4 + row / 2 * (columns / 2) + column / 2;
+      silvasim::base::Stream random(0, silvasim::base::Purpose::impostor, block);
+      for (std::size_t i = 0; i < rays_a_block; ++i) {
+        const float x = (static_cast<float>(i % rays_across) + random.next_float()) * (2.0f / rays_across),
+                    y = (static_cast<float>(i / rays_across) + random.next_float()) * (2.0f / rays_across);
+        rays[i] = {view.point((static_cast<float>(column) + x) * wide - impostor.radius_m,
+                              view.bottom_m + (static_cast<float>(row) + y) * high),
+                   direction, -1e30f};
       }
-      met.resize(rays.size());
       accel::trace_model(model, rays, met);
-      map.depths_m.resize(met.size());
-      for (std::size_t i = 0; i < met.size(); ++i) map.depths_m[i] = met[i].t;
-      maps_.push_back(std::move(map));
+      std::array<std::uint32_t, 4> hits{};
+      std::array<std::size_t, rays_a_block> order;  // of those that met something, by chance
+      std::uint32_t count = 0;
+      for (std::size_t i = 0; i < rays_a_block; ++i) {
+        if (!std::isfinite(met[i].t)) continue;
+        ++hits[i / (rays_a_block / 2) * 2 + i % rays_across / (rays_across / 2)];
+        order[count] = i;
+        std::swap(order[count], order[random.next_below(count + 1)]);
+        ++count;
+      }
+      constexpr std::uint32_t rays_a_texel = rays_a_block / 4;
+      for (std::uint32_t k = 0; k < 4; ++k)
+        impostor.covered[first + (row + k / 2) * columns + column + k % 2] =
+            static_cast<std::uint8_t>((hits[k] * 255 + rays_a_texel / 2) / rays_a_texel);
+      for (std::uint32_t k = 0; k < Impostor::points_a_block && count > 0; ++k) {
+        const std::size_t i = order[k % count];
+        Impostor::Point& point = impostor.points[block * Impostor::points_a_block + k];
+        point.slot = met[i].slot;
+        point.depth_m = met[i].t;
+        point.u = static_cast<std::uint16_t>(std::lround(met[i].u * 65535));
+        point.v = static_cast<std::uint16_t>(std::lround(met[i].v * 65535));
+        point.barred = barred_from(model, point.slot, rays[i].origin + direction * met[i].t);
+      }
     }
-    radius_m_ = impostor.radius_m;
   }
-
-  // The lamps whose light ends before the point.
-  std::uint32_t barred(const V3& at) const {
-    std::uint32_t bits = 0;
-    for (std::size_t lamp = 0; lamp < maps_.size(); ++lamp) {
-      const Map& map = maps_[lamp];
-      const float x = (map.view.across_m(at) / radius_m_ + 1) * 0.5f * static_cast<float>(map.columns);
-      const float y =
-          (map.view.up_m(at) - map.view.bottom_m) / (map.view.top_m - map.view.bottom_m) * static_cast<float>(map.rows);
-      const auto column = static_cast<std::uint32_t>(std::clamp(x, 0.0f, static_cast<float>(map.columns - 1)));
-      const auto row = static_cast<std::uint32_t>(std::clamp(y, 0.0f, static_cast<float>(map.rows - 1)));
-      if (map.depths_m[row * map.columns + column] < at.dot(map.direction) - bias_m_) bits |= 1u << lamp;
-    }
-    return bits;
-  }
-
- private:
-  struct Map {
-    ImpostorView view;
-    V3 direction;
-    std::uint32_t columns, rows;
-    std::vector<float> depths_m;  // row by row; infinite: nothing there
-  };
-  std::vector<Map> maps_;
-  float bias_m_, radius_m_ = 1;
-};
+}
 
 }  // namespace
 
 Impostor impostor_of(const scene::PlantModel& model) {
-  Impostor impostor;
-  set_measures(model, impostor);
-  const Shades shades(model, impostor);
-  std::array<accel::ModelRay, rays_a_texel> rays;
-  std::array<accel::ModelPoint, rays_a_texel> met;
-  std::uint32_t texel = 0;
-  for (int elevation = 0; elevation < Impostor::elevations; ++elevation) {
-    for (int side = 0; side < Impostor::sides; ++side) {
-      const V3 direction = scene::impostor_direction(elevation, side);
-      const ImpostorView view(impostor, direction);
-      const std::uint32_t rows = impostor.rows[static_cast<std::size_t>(elevation)];
-      const float wide = 2 * impostor.radius_m / static_cast<float>(impostor.columns),
-                  high = (view.top_m - view.bottom_m) / static_cast<float>(rows);
-      for (std::uint32_t row = 0; row < rows; ++row) {
-        for (std::uint32_t column = 0; column < impostor.columns; ++column, ++texel) {
-          silvasim::base::Stream random(0, silvasim::base::Purpose::impostor, texel);
-          for (std::size_t i = 0; i < rays_a_texel; ++i) {
-            const float x = (static_cast<float>(i % rays_across) + random.next_float()) / rays_across,
-                        y = (static_cast<float>(i / rays_across) + random.next_float()) / rays_across;
-            rays[i] = {view.point((static_cast<float>(column) + x) * wide - impostor.radius_m,
-                                  view.bottom_m + (static_cast<float>(row) + y) * high),
-                       direction, -1e30f};
-          }
-          accel::trace_model(model, rays, met);
-          // One of those that met something, each as likely as the others.
-          std::uint32_t count = 0;
-          std::size_t kept = 0;
-          for (std::size_t i = 0; i < met.size(); ++i) {
-            if (std::isfinite(met[i].t) && random.next_below(++count) == 0) kept = i;
-          }
-          impostor.covered[texel] = static_cast<std::uint8_t>((count * 255 + rays_a_texel / 2) / rays_a_texel);
-          if (count == 0) continue;
-          Impostor::Point& point = impostor.points[texel];
-          point.slot = met[kept].slot;
-          point.depth_m = met[kept].t;
-          point.u = static_cast<std::uint16_t>(std::lround(met[kept].u * 65535));
-          point.v = static_cast<std::uint16_t>(std::lround(met[kept].v * 65535));
-          point.barred = shades.barred(rays[kept].origin + direction * met[kept].t);
-        }
-      }
-    }
-  }
+  Impostor impostor = empty_impostor(model);
+  for (int elevation = 0; elevation < Impostor::elevations; ++elevation)
+    for (int side = 0; side < Impostor::sides; ++side) fill(model, elevation, side, impostor);
   return impostor;
 }
 

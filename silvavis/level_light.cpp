@@ -62,7 +62,7 @@ const std::vector<Lamp>& sun_and_sky() {
 
 }  // namespace
 
-double lit_brightness(const std::shared_ptr<const scene::PlantModel>& model, float width_m) {
+double lit_brightness(const std::shared_ptr<const scene::PlantModel>& model) {
   constexpr int side_px = 60;
   const scene::Scene scene = small_wood(model);
   const auto tracer = accel::make_nested(scene);
@@ -87,7 +87,6 @@ double lit_brightness(const std::shared_ptr<const scene::PlantModel>& model, flo
                   y = (static_cast<float>(i / side_px) + 0.5f) / side_px * 2 - 1;
       rays[i].origin = middle + V3d(view * (3 * radius) + right * (x * radius) + up * (y * radius));
       rays[i].direction = -view;
-      rays[i].width_m = width_m;
     }
     tracer->nearest(rays, hits);
     points.clear();
@@ -103,7 +102,6 @@ double lit_brightness(const std::shared_ptr<const scene::PlantModel>& model, flo
       askers.clear();
       for (std::size_t k = 0; k < points.size(); ++k) {
         accel::Ray ray;
-        ray.width_m = width_m;
         if (!shade::ray_from(points[k], met[k], lamp.towards, 2e-3, ray)) continue;
         sunward.push_back(ray);
         askers.push_back(k);

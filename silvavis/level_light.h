@@ -8,7 +8,7 @@
 namespace silvavis {
 
 // Mean brightness of what is seen of nine such plants over three views, under two places of the sun and a sky, with all shadows. Only
-// ratios mean something. `width_m`: of all rays, so that it decides the level. Threads: any.
-double lit_brightness(const std::shared_ptr<const scene::PlantModel>& model, float width_m = 0);
+// ratios mean something. Threads: any.
+double lit_brightness(const std::shared_ptr<const scene::PlantModel>& model);
 
 }  // namespace silvavis

@@ -1,13 +1,13 @@
 // A plant from far away: for some directions a grid of what rays met when they were traced through the full model.
 //
-// A texel holds how much of it the plant covers, and one of the very points that were met: a leaf or a piece of wood of the full
-// model, with its normal and colours, and the 32 directions of the upper hemisphere in which the plant itself bars the light. So
+// A texel holds how much of it the plant covers; four of them share two of the very points that were met: a leaf or a piece of wood
+// of the full model, with its normal and colours, and the 64 directions of the upper hemisphere in which the plant itself bars the light. So
 // coverage, colour and own shadow are the full model's in the mean, at the price of looking into a table instead of walking a
 // tree. The grid turns with who looks, about the stem, so nothing pops where an eye moves around a plant; between elevations
 // and at the edge of coverage a hash of ray and plant decides, so nothing pops there either.
 //
 // Units: metres of the model's space. A grid is as wide as the upright cylinder that holds the model, seen in its direction.
-// Memory: 0.5 MB a model. Made by silvavis/impostor_of.h.
+// Memory: 0.4 MB a model. Made by silvavis/impostor_of.h.
 // Source: Silva 2013, section 5 (impostors for a preview of 10 Hz).
 #pragma once
 
@@ -25,23 +25,23 @@ namespace silvavis::scene {
 struct Impostor {
   // Grids: of rays that travel down or up by so many degrees, even in the sine, and from so many sides.
   static constexpr int elevations = 12, sides = 3;
-  static constexpr int lamp_bands = 4, lamp_azimuths = 8;
+  static constexpr int lamp_bands = 16, lamp_azimuths = 4;
+  static constexpr std::uint32_t points_a_block = 2;
 
   struct Point {
+    std::uint64_t barred = 0;    // bit lamp_band * lamp_azimuths + lamp_azimuth: the plant itself is in the light's way
     std::uint32_t slot = 0;      // triangle of the full model
-    std::uint32_t barred = 0;    // bit lamp_band * lamp_azimuths + lamp_azimuth: the plant itself is in the light's way
     float depth_m = 0;           // along the direction, from the plane through the foot
     std::uint16_t u = 0, v = 0;  // weights of corners 1 and 2, of 65535
   };
 
   float radius_m = 1, least_m = 0, most_m = 1;
-  float texel_m = 1;  // side of a texel
-  float tint = 1;     // as PlantModel::tint
-  std::uint32_t columns = 1;
+  float texel_m = 1;                              // side of a texel
+  std::uint32_t columns = 2;                      // even, as rows are: four texels are a block
   std::array<std::uint32_t, elevations> rows{};   // of a grid
   std::array<std::uint32_t, elevations> first{};  // texel of the elevation's first side, its south-western in its grid
   std::vector<std::uint8_t> covered;              // by texel, of 255
-  std::vector<Point> points;                      // by texel; meaningless where nothing is covered
+  std::vector<Point> points;                      // points_a_block by block; meaningless where nothing is covered
 
   std::size_t bytes() const { return covered.size() + points.size() * sizeof(Point); }
 };
@@ -68,7 +68,7 @@ struct ImpostorView {
   }
 };
 
-// The direction of a grid, and that of a lamp in the upper hemisphere.
+// The direction of a grid, and that towards a lamp of the upper hemisphere.
 V3 impostor_direction(int elevation, int side);
 V3 lamp_direction(int band, int azimuth);
 
@@ -121,10 +121,14 @@ inline std::uint32_t meet_impostor(const Impostor& impostor, const V3& origin, c
       among((across + 1) * 0.5f * static_cast<float>(impostor.columns) + of_byte(chance, 32) - 0.5f, impostor.columns);
   const std::uint32_t row = among(rise * static_cast<float>(rows) + of_byte(chance, 40) - 0.5f, rows);
   const std::uint32_t texel = impostor.first[elevation] + (side * rows + row) * impostor.columns + column;
-  return (chance >> 16 & 0xFFFF) * 255 < std::uint64_t{impostor.covered[texel]} << 16 ? texel : no_point;
+  if ((chance >> 16 & 0xFFFF) * 255 >= std::uint64_t{impostor.covered[texel]} << 16) return no_point;
+  const std::uint32_t block =
+      impostor.first[elevation] / 4 + (side * rows / 2 + row / 2) * (impostor.columns / 2) + column / 2;
+  return block * Impostor::points_a_block + static_cast<std::uint32_t>(chance >> 48 & (Impostor::points_a_block - 1));
 }
 
-// Whether the plant itself is between its point and the light, `towards` in the model's space and above the horizon.
+// Whether the plant itself is between its point and the light, `towards` in the model's space and above the horizon. Between
+// lamps chance decides.
 inline bool is_barred(const Impostor::Point& point, const V3& towards, std::uint64_t chance) {
   const float place = towards.z * Impostor::lamp_bands + 0.5f + of_byte(chance, 0);
   const int band = std::clamp(static_cast<int>(place) - 1, 0, Impostor::lamp_bands - 1);

@@ -58,10 +58,12 @@ inline Instance instance_at(const Scene& scene, const PlantLayer& layer, int col
   return instance;
 }
 
+// An impostor's texels may be a little wider than a pixel: they are blurred into each other.
+inline constexpr float texels_a_pixel = 0.6f;
+
 // Which level of a model to meet with a ray of this width: the simplest whose leaves, or texels, are no wider.
 inline std::uint8_t level_for(const PlantModel& model, const Instance& instance, float width_m) {
   const float wide = width_m / (instance.scale * (0.75f + 0.5f * instance.dither));
-  constexpr float texels_a_pixel = 0.6f;  // they are blurred into each other
   if (model.impostor && texels_a_pixel * model.impostor->texel_m <= wide)
     return static_cast<std::uint8_t>(model.coarser.size() + 1);
   std::uint8_t level = 0;

@@ -74,7 +74,6 @@ SurfacePoint surface_at(const scene::Scene& scene, const Land& land, const accel
     slot = point.told->slot;
     u = static_cast<float>(point.told->u) * (1.0f / 65535);
     v = static_cast<float>(point.told->v) * (1.0f / 65535);
-    tint = full.impostor->tint;
   }
   const scene::PlantModel& model = hit.level == 0 || point.told ? full : *full.coarser[hit.level - 1u];
   if (!point.told) tint = model.tint;
