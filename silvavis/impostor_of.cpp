@@ -26,7 +26,9 @@ void set_measures(const scene::PlantModel& model, Impostor& impostor) {
   impostor.most_m = std::max(model.most.z, model.least.z + 1e-3f);
   const double width = 2 * static_cast<double>(impostor.radius_m),
                height = static_cast<double>(impostor.most_m - impostor.least_m);
-  impostor.texel_m = static_cast<float>(std::max(std::sqrt(width * height / texels_from_side), height / 200));
+  // From above, mats that are far wider than high would need texels without end.
+  impostor.texel_m =
+      static_cast<float>(std::max({std::sqrt(width * height / texels_from_side), height / 200, width / 100}));
   impostor.columns =
       std::max(2u, static_cast<std::uint32_t>(std::lround(width / static_cast<double>(impostor.texel_m))));
   std::uint32_t texels = 0;
