@@ -36,9 +36,9 @@ Impostor empty_impostor(const scene::PlantModel& model) {
   impostor.most_m = std::max(model.most.z, model.least.z + 1e-3f);
   const double width = 2 * static_cast<double>(impostor.radius_m),
                height = static_cast<double>(impostor.most_m - impostor.least_m);
-  // Neither a blade nor a disc makes the grid long.
+  // From above, mats that are far wider than high would need texels without end.
   impostor.texel_m =
-      static_cast<float>(std::max({std::sqrt(width * height / texels_from_side), height / 200, width / 200}));
+      static_cast<float>(std::max({std::sqrt(width * height / texels_from_side), height / 200, width / 100}));
   const auto even = [&](double length) {
     return 2 *
            std::max(1u, static_cast<std::uint32_t>(std::lround(length / static_cast<double>(impostor.texel_m) / 2)));

@@ -38,10 +38,9 @@ class Progressive {
   const image::Image& squares() const { return squares_; }
 
   bool finished() const { return finished_; }
-  int coarseness_px() const {
-    return stride_;
-  }                                // side of a sample's square; 0 before refine(), 1: the pixels themselves
-  double samples_a_pixel() const;  // below 1 while squares are sampled
+  // Side of a sample's square in what is shown, that is of squares(); 0 before refine(), 1: the pixels themselves.
+  int coarseness_px() const { return stride_ > 1 ? shown_stride_ : stride_; }
+  double samples_a_pixel() const;                                     // below 1 while squares are sampled
   const RenderStatistics& statistics() const { return statistics_; }  // since look()
 
  private:

@@ -185,7 +185,11 @@ struct GroundWalk {
 
  private:
   static HWY_INLINE void clip(double at, double slope, double& from, double& to) {
-    if (std::abs(slope) < 1e-15) return;
+    if (std::abs(slope) < 1e-15) {
+      // Along the cell's side: within it all the way, or nowhere. Planes do not go on beyond it.
+      if (at < 0 || at > 1) to = from - 1;
+      return;
+    }
     const double a = -at / slope, b = (1 - at) / slope;
     from = std::max(from, std::min(a, b));
     to = std::min(to, std::max(a, b));

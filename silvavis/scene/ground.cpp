@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
+#include "silvasim/base/error.h"
 #include "silvasim/base/parallel.h"
 
 namespace silvavis::scene {
 
 namespace {
+
+constexpr float most_height_m = 100'000;  // beyond it floats do not keep centimetres
 
 // Fills what has no data with the mean of its surroundings: each coarser grid holds the means of 2 x 2, and what is missing is
 // taken from the next coarser one. Without any data at all: 0.
@@ -80,6 +84,11 @@ Ground make_ground(const silvasim::ecosystem::Terrain& terrain, const silvasim::
     }
   }
   const auto [least, most] = std::minmax_element(ground.heights_m.begin(), ground.heights_m.end());
+  if (!(*least >= -most_height_m && *most <= most_height_m)) {
+    throw silvasim::base::Error("the terrain's heights reach from " + std::to_string(*least) + " to " +
+                                std::to_string(*most) + " m; at most " + std::to_string(most_height_m) +
+                                " m can be drawn (was its no data value not declared?)");
+  }
   ground.pyramid = make_pyramid(ground.columns - 1, ground.rows - 1, {*least, *most}, [&](int i, int j) {
     const auto [low, high] =
         std::minmax({ground.at(i, j), ground.at(i + 1, j), ground.at(i, j + 1), ground.at(i + 1, j + 1)});

@@ -34,6 +34,7 @@ struct Ground {
 };
 
 // `origin`: the scene point that becomes world (0, 0). Without a terrain: flat land at height 0 under `extent`.
+// Errors: base::Error for heights beyond 100 km, which are numbers that stand for no data.
 Ground make_ground(const silvasim::ecosystem::Terrain& terrain, const silvasim::base::Box& extent,
                    silvasim::base::Point origin);
 

@@ -170,11 +170,24 @@ HeightRange ground_range(const Ground& ground, double west, double south, double
   return range;
 }
 
+constexpr std::int64_t most_land_positions = std::int64_t{1} << 26;  // 70 bytes each
+
 void make_land(Scene& scene) {
   const Ground& ground = scene.ground;
   const PlantLayer* const layer = scene.layers.empty() ? nullptr : &scene.layers.front();
   const double side = layer ? layer->tile_side_m : 8 * std::max(ground.cell_x_m, ground.cell_y_m);
   const double west = layer ? layer->west : ground.west, south = layer ? layer->south : ground.south;
+  // Before anything is counted in whole numbers: a file may hold any terrain beside any tiles.
+  const double east = west + (layer ? layer->columns * side : 0), north = south + (layer ? layer->rows * side : 0);
+  const double across = (std::max(ground.east(), east) - std::min(ground.west, west)) / side,
+               down = (std::max(ground.north(), north) - std::min(ground.south, south)) / side;
+  if (const auto most = static_cast<double>(most_land_positions);
+      !(across * down <= most && std::max(across, down) <= most / 4)) {
+    throw silvasim::base::Error("the terrain is so much larger than the tiles of " +
+                                (layer ? "layer \"" + layer->name + "\"" : std::string("the land")) + ", " +
+                                std::to_string(side) + " m wide, that it takes " + std::to_string(across * down) +
+                                " of them; pictures hold at most " + std::to_string(most_land_positions));
+  }
   LandGrid& land = scene.land;
   land.first_column = std::min(0, static_cast<int>(std::floor((ground.west - west) / side)));
   land.first_row = std::min(0, static_cast<int>(std::floor((ground.south - south) / side)));

@@ -171,6 +171,26 @@ TEST(Progressive, CoarsePicturesShowEverythingInItsPlace) {
   }
 }
 
+// Whoever enlarges the squares gets the width of those that there are, not of those that are being made.
+TEST(Progressive, SquaresAreAsWideAsItTells) {
+  const scene::Scene scene = made_forest({});
+  const auto tracer = accel::make_nested(scene);
+  const Light light{shade::SkyOptions{}};
+  RenderOptions options = small_picture(scene, 250);
+  options.camera.width = 641;
+  options.camera.height = 363;
+  Progressive progressive(scene, *tracer, plain);
+  progressive.look(light, options);
+  int frames = 0;
+  for (progressive.refine(0); progressive.coarseness_px() > 1; progressive.refine(0), ++frames) {
+    const int side = progressive.coarseness_px();
+    ASSERT_EQ(progressive.squares().width, (641 + side - 1) / side) << "in frame " << frames;
+    ASSERT_EQ(progressive.squares().height, (363 + side - 1) / side) << "in frame " << frames;
+    ASSERT_EQ(progressive.samples_a_pixel(), 1.0 / (side * side));
+  }
+  EXPECT_GT(frames, 10) << "squares were never half made";
+}
+
 TEST(Progressive, LooksAnewInTheMiddleOfAPicture) {
   const scene::Scene scene = made_forest({});
   const auto tracer = accel::make_nested(scene);

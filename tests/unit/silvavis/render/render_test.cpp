@@ -10,7 +10,9 @@
 #include "silvasim/base/parallel.h"
 #include "silvavis/accel/embree.h"
 #include "silvavis/accel/nested.h"
+#include "silvavis/accel/pack.h"
 #include "silvavis/image/compare.h"
+#include "silvavis/impostor_of.h"
 
 namespace silvavis::testing {
 
@@ -97,6 +99,15 @@ TEST(Render, ASampleMoreChangesLittleAndErrorsEndPixelsEarly) {
   const image::Frame early = render(scene, *tracer, light, {}, options, {}, &adaptive);
   EXPECT_LT(adaptive.eye_rays, all.eye_rays * 3 / 4);
   EXPECT_NEAR(image::compare(early.colour, reference.colour).brightness_ratio, 1, 0.01);
+}
+
+// A mat of moss or a lawn: three hundred times as wide as high.
+TEST(Impostor, OfAFlatPlantTakesNoMoreThanSomeMegabytes) {
+  assets::Model model = leaf_ball(100, 9, 4.5, false, 1);
+  for (V3& p : model.positions) p.z /= 300;
+  const scene::Impostor flat = impostor_of(accel::pack(model));
+  EXPECT_LT(flat.bytes(), std::size_t{5} << 20);
+  EXPECT_GE(flat.columns, 50u);
 }
 
 TEST(Render, StopsWhenAsked) {

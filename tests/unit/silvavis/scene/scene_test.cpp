@@ -1,5 +1,6 @@
 #include "silvavis/scene/scene.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,8 +8,10 @@
 #include <functional>
 #include <limits>
 #include <set>
+#include <string>
 
 #include "../accel/made_forest.h"
+#include "silvasim/base/error.h"
 #include "silvasim/base/random.h"
 #include "silvavis/accel/pack.h"
 #include "silvavis/scene/instance.h"
@@ -172,6 +175,38 @@ TEST(Scene, PlantsStandOnTheGroundWhereTheEcosystemSays) {
   }
   EXPECT_EQ(plants, scene.plants);
   EXPECT_GT(plants, 500u);
+}
+
+std::string refusal(silvasim::ecosystem::Ecosystem e) {
+  const std::vector<std::vector<SpeciesModelSet>> none(e.layers.size(), std::vector<SpeciesModelSet>(3));
+  try {
+    make_scene(std::move(e), none);
+  } catch (const silvasim::base::Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+// All of them pass the check of an ecosystem file.
+TEST(Scene, RefusesTerrainsThatNoPictureHolds) {
+  const auto made = testing::made_ecosystem({});
+  EXPECT_EQ(refusal(made), "");
+  auto e = made;
+  e.terrain.cell_width_m = 1e9;
+  EXPECT_THAT(refusal(e), ::testing::HasSubstr("larger than the tiles of layer \"trees\""));
+  e = made;
+  e.terrain.west = -1e9;
+  e.terrain.north = 1e9;
+  EXPECT_THAT(refusal(e), ::testing::HasSubstr("larger than the tiles"));
+  e = made;
+  e.layers[0].tile_set.side_m = 1e-4;
+  for (auto& tile : e.layers[0].tile_set.tiles) tile.sites.clear();
+  EXPECT_THAT(refusal(e), ::testing::HasSubstr("larger than the tiles"));
+  e = made;
+  e.terrain.heights_m[5] = -3.4028235e38f;
+  EXPECT_THAT(refusal(e), ::testing::HasSubstr("no data value"));
+  e.terrain.heights_m[5] = 3.4e38f;
+  EXPECT_THAT(refusal(e), ::testing::HasSubstr("no data value"));
 }
 
 TEST(Scene, TakesLessThanSixBytesAPlant) {
