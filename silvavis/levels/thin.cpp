@@ -99,6 +99,34 @@ std::vector<Leaf> leaves_of(const Model& model) {
   return leaves;
 }
 
+// The vertices of some triangles, in the model's order, and two that are as far apart as the whole model reaches, because
+// meshoptimizer's errors are shares of that. It takes a hundred bytes for each vertex that it is shown.
+struct FewVertices {
+  std::vector<std::uint32_t> vertices;  // in the model
+  std::vector<V3> positions;
+  std::vector<unsigned int> indices;
+
+  FewVertices(const Model& from, const std::vector<unsigned int>& corners) {
+    std::vector<std::uint32_t> number(from.positions.size(), 0xFFFFFFFF);
+    for (const unsigned int corner : corners) number[corner] = 0;
+    V3 least = from.positions[0], most = least;
+    for (std::uint32_t v = 0; v < number.size(); ++v) {
+      const V3& p = from.positions[v];
+      for (int axis = 0; axis < 3; ++axis) {
+        least[axis] = std::min(least[axis], p[axis]);
+        most[axis] = std::max(most[axis], p[axis]);
+      }
+      if (number[v] != 0) continue;
+      number[v] = static_cast<std::uint32_t>(vertices.size());
+      vertices.push_back(v);
+      positions.push_back(p);
+    }
+    positions.push_back(least);
+    positions.push_back(most);
+    for (const unsigned int corner : corners) indices.push_back(number[corner]);
+  }
+};
+
 // The wood with about `target` triangles.
 void add_wood(const Model& from, std::size_t target, Model& to) {
   // A texture per material, so material by material.
@@ -118,8 +146,10 @@ void add_wood(const Model& from, std::size_t target, Model& to) {
         std::max<std::size_t>(4, indices.size() / 3 * target / std::max<std::size_t>(all, 1)) * 3;
     if (wanted < indices.size()) {
       std::vector<unsigned int> simpler(indices.size());
-      std::size_t count = meshopt_simplify(simpler.data(), indices.data(), indices.size(), &from.positions[0].x,
-                                           from.positions.size(), sizeof(V3), wanted, 1.0f, 0, nullptr);
+      const FewVertices few(from, indices);
+      std::size_t count = meshopt_simplify(simpler.data(), few.indices.data(), indices.size(), &few.positions[0].x,
+                                           few.positions.size(), sizeof(V3), wanted, 1.0f, 0, nullptr);
+      for (std::size_t i = 0; i < count; ++i) simpler[i] = few.vertices[simpler[i]];
       if (count > wanted + wanted / 2) {
         count = meshopt_simplifySloppy(simpler.data(), indices.data(), indices.size(), &from.positions[0].x,
                                        from.positions.size(), sizeof(V3), wanted, 1.0f, nullptr);
