@@ -35,6 +35,13 @@ void give_back_free_memory() {
 #endif
 }
 
+void give_back_pages(void* buffer, std::size_t bytes) {
+  static const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGE_SIZE));
+  const auto begin = reinterpret_cast<std::uintptr_t>(buffer);
+  const std::uintptr_t first = (begin + page - 1) / page * page, end = (begin + bytes) / page * page;
+  if (first < end) madvise(reinterpret_cast<void*>(first), end - first, MADV_DONTNEED);
+}
+
 void ask_for_huge_pages(void* buffer, std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
   // Whole pages only: a last one that is hardly used would take 2 MB all the same.

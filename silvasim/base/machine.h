@@ -1,6 +1,7 @@
 // What the machine has.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace silvasim::base {
@@ -13,5 +14,9 @@ std::uint64_t peak_rss_bytes();  // the most that this process has held so far
 // free among smaller ones; it takes some milliseconds. Where the allocator is not glibc's they do nothing.
 void give_back_large_blocks();
 void give_back_free_memory();
+
+// Gives the whole pages within a buffer back while it lives; what stood there is lost, and what is read there again is
+// anything.
+void give_back_pages(void* buffer, std::size_t bytes);
 
 }  // namespace silvasim::base
