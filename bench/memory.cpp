@@ -43,7 +43,7 @@ void after(const char* stage) {
 
 double mb(std::size_t bytes) { return static_cast<double>(bytes) / 1e6; }
 
-void print_models(const scene::Scene& scene) {
+std::string text_of_models(const scene::Scene& scene) {
   std::size_t full = 0, coarser = 0, impostors = 0, looks = 0;
   for (const auto& model : scene.models) {
     full += model->bytes();
@@ -51,9 +51,10 @@ void print_models(const scene::Scene& scene) {
     if (model->impostor) impostors += model->impostor->bytes();
     looks += model->looks->bytes();
   }
-  fmt::print("\nOf these {} models: {:.1f} full, {:.1f} coarser, {:.1f} impostors, {:.1f} textures; plants {:.1f}\n",
-             scene.models.size(), mb(full - coarser - impostors), mb(coarser), mb(impostors), mb(looks),
-             mb(scene.plant_bytes()));
+  return fmt::format(
+      "\nOf these {} models: {:.1f} full, {:.1f} coarser, {:.1f} impostors, {:.1f} textures; plants {:.1f}\n",
+      scene.models.size(), mb(full - coarser - impostors), mb(coarser), mb(impostors), mb(looks),
+      mb(scene.plant_bytes()));
 }
 
 void measure(const fs::path& file, const FloraOptions& flora_options, const fs::path& output) {
@@ -62,11 +63,12 @@ void measure(const fs::path& file, const FloraOptions& flora_options, const fs::
   silvasim::ecosystem::Ecosystem ecosystem = silvasim::ecosystem::read(file);
   silvasim::fields::report_frame({ecosystem.crs_wkt, "", ecosystem.extent});
   after("read");
-  Flora flora = models_of(ecosystem, flora_options);
+  auto models_by_layer = models_of(ecosystem, flora_options).models;
   after("models");
-  scene::Scene scene = scene::make_scene(std::move(ecosystem), flora.models);
+  scene::Scene scene = scene::make_scene(std::move(ecosystem), models_by_layer);
+  models_by_layer.clear();
   after("scene");
-  const auto tracer = accel::make_nested(scene);
+  auto tracer = accel::make_nested(scene);
   after("tracer");
   shade::SkyOptions sky;
   sky.sun_direction = V3(-0.54f, -0.54f, 0.64f).normalized();
@@ -79,9 +81,12 @@ void measure(const fs::path& file, const FloraOptions& flora_options, const fs::
   settings.lod = flora_options.levels;
   const image::Frame frame = render(scene, *tracer, light, {}, settings);
   after("picture");
+  const std::string models = text_of_models(scene);
+  tracer.reset();
+  scene.models.clear();
   image::write(output, frame);
   after("written");
-  print_models(scene);
+  fmt::print("{}", models);
   fs::remove(output);
 }
 

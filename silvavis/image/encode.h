@@ -17,7 +17,7 @@ namespace silvavis::image {
 
 using Bytes = std::vector<std::uint8_t>;
 
-inline constexpr int strip_rows = 64;  // that the encoders ask for at once
+inline constexpr int strip_rows = 16;  // that the encoders ask for at once
 
 // Rows [first, end) of three channels in sRGB's encoding.
 template <typename Value>

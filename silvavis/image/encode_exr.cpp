@@ -94,7 +94,11 @@ Bytes packed(const std::vector<Channel>& channels, std::size_t first_pixel, std:
 Bytes exr_of(const Frame& frame, bool whole_floats, const std::map<std::string, std::string>& attributes) {
   const std::vector<Channel> channels = channels_of(frame, whole_floats);
   const int width = frame.colour.width, height = frame.colour.height;
+  std::size_t pixel_bytes = 0;
+  for (const Channel& channel : channels) pixel_bytes += channel.bytes();
   Bytes bytes;
+  // Pages that stay empty cost nothing.
+  bytes.reserve(pixel_bytes * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   try {
     Imf::Header header(width, height);
     header.compression() = Imf::ZIP_COMPRESSION;

@@ -59,6 +59,7 @@ Bytes png_of(const Shown& shown, const Strips<std::uint8_t>& strips) {
     png_write_info(writer.png, writer.info);
   });
   const std::size_t row_bytes = static_cast<std::size_t>(shown.width) * 3;
+  writer.bytes.reserve(row_bytes * static_cast<std::size_t>(shown.height));  // pages that stay empty cost nothing
   for (int first = 0; first < shown.height; first += strip_rows) {
     const int end = std::min(first + strip_rows, shown.height);
     const std::vector<std::uint8_t> strip = strips(first, end);

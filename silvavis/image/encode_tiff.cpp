@@ -50,6 +50,8 @@ Bytes tiff_of(const Shown& shown, const Strips<std::uint16_t>& strips) {
     if (!done) throw silvasim::base::Error("libtiff does not take it");
   };
   Memory memory;
+  // Pages that stay empty cost nothing.
+  memory.bytes.reserve(static_cast<std::size_t>(shown.width) * static_cast<std::size_t>(shown.height) * 6);
   {
     const std::unique_ptr<TIFF, void (*)(TIFF*)> tiff(
         TIFFClientOpen("picture", "wm", &memory, Memory::read, Memory::write, Memory::seek, Memory::close, Memory::size,

@@ -277,6 +277,8 @@ Scene make_scene(ecosystem::Ecosystem from, const std::vector<std::vector<Specie
   make_land(scene);
   // The land's holds it.
   if (!scene.layers.empty()) scene.layers.front().pyramid = {};
+  from = {};
+  silvasim::base::give_back_free_memory();
   return scene;
 }
 
