@@ -16,6 +16,7 @@
 #include <ctime>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "silvasim/base/error.h"
@@ -80,7 +81,7 @@ std::uint64_t trace(const scene::Scene& scene, const accel::Tracer& tracer, std:
   return sum;
 }
 
-Figures measure(const silvasim::ecosystem::Ecosystem& ecosystem, const std::string& way, int runs, int triangles) {
+Figures measure(silvasim::ecosystem::Ecosystem ecosystem, const std::string& way, int runs, int triangles) {
   Figures figures;
   auto mark = std::chrono::steady_clock::now();
   FloraOptions options;
@@ -89,7 +90,7 @@ Figures measure(const silvasim::ecosystem::Ecosystem& ecosystem, const std::stri
   options.levels = way == "nested, levels";
   Flora flora = models_of(ecosystem, options);
   figures.models_s = seconds_since(mark);
-  const scene::Scene scene = scene::make_scene(ecosystem, flora.models);
+  const scene::Scene scene = scene::make_scene(std::move(ecosystem), flora.models);
   figures.scene_s = seconds_since(mark);
   const auto tracer = way == "Embree" ? accel::make_embree(scene) : accel::make_nested(scene);
   figures.build_s = seconds_since(mark);
@@ -138,6 +139,7 @@ Figures measure_apart(const fs::path& file, const std::string& way, int threads,
 }  // namespace
 
 int main(int argc, char** argv) {
+  silvasim::base::give_back_large_blocks();
   int threads = 0, runs = 3, triangles = 160000;
   std::string only, only_way;
   for (int i = 1; i + 1 < argc; i += 2) {

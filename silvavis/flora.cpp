@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "silvasim/base/error.h"
+#include "silvasim/base/machine.h"
 #include "silvasim/base/parallel.h"
 #include "silvavis/accel/pack.h"
 #include "silvavis/assets/fit.h"
@@ -133,9 +134,9 @@ Flora models_of(const ecosystem::Ecosystem& from, const FloraOptions& options,
   std::atomic<std::size_t> done = 0;
   silvasim::base::parallel_for(tasks.size(), [&](std::size_t i) {
     const Task& task = tasks[i];
-    const assets::Model model = model_for(task, from.layers[task.layer].species[task.species], options, warnings[i]);
-    flora.models[task.layer][task.species][static_cast<std::size_t>(task.variant)] =
-        packed_with_levels(model, options.levels);
+    flora.models[task.layer][task.species][static_cast<std::size_t>(task.variant)] = packed_with_levels(
+        model_for(task, from.layers[task.layer].species[task.species], options, warnings[i]), options.levels);
+    silvasim::base::give_back_free_memory();
     silvasim::base::report(progress, "models", static_cast<double>(++done) / static_cast<double>(tasks.size()));
   });
   for (const auto& of_task : warnings) flora.warnings.insert(flora.warnings.end(), of_task.begin(), of_task.end());

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "silvasim/base/error.h"
+#include "silvasim/base/machine.h"
 #include "silvasim/base/progress.h"
 #include "silvavis/commands/diff.h"
 #include "silvavis/commands/fly.h"
@@ -190,6 +191,7 @@ int fail(int code, const std::string& message, bool complete = false) {
 
 int main(int argc, char** argv) {
   silvasim::base::install_interrupt_handler();
+  silvasim::base::give_back_large_blocks();
   CLI::App app("SilvaVis renders the landscapes that silvasim grows.", "silvavis");
   app.set_version_flag("--version", std::string("silvavis ") + SILVA_VERSION);
   app.require_subcommand(1);

@@ -142,6 +142,7 @@ void measure(const commands::StageOptions& options, std::size_t view, int runs, 
 }  // namespace
 
 int main(int argc, char** argv) {
+  silvasim::base::give_back_large_blocks();
   commands::StageOptions options = silva_bench::stage_options();
   fs::path input, output, other;
   std::size_t view = 0;

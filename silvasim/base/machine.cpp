@@ -5,6 +5,9 @@
 #include <unistd.h>
 
 #include "silvasim/base/huge_vector.h"
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace silvasim::base {
 
@@ -17,6 +20,26 @@ std::uint64_t peak_rss_bytes() {
   struct rusage usage {};
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+void give_back_large_blocks() {
+#ifdef __GLIBC__
+  // Without this the limit grows with the blocks that are freed, up to 32 MB.
+  mallopt(M_MMAP_THRESHOLD, 256 << 10);
+#endif
+}
+
+void give_back_free_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+void give_back_pages(void* buffer, std::size_t bytes) {
+  static const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGE_SIZE));
+  const auto begin = reinterpret_cast<std::uintptr_t>(buffer);
+  const std::uintptr_t first = (begin + page - 1) / page * page, end = (begin + bytes) / page * page;
+  if (first < end) madvise(reinterpret_cast<void*>(first), end - first, MADV_DONTNEED);
 }
 
 void ask_for_huge_pages(void* buffer, std::size_t bytes) {

@@ -122,6 +122,21 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pr
   return leaf;
 }
 
+struct Counts {
+  std::size_t nodes = 0, leaves = 0;
+};
+Counts counted(const Built& built) {
+  if (built.leaf) return {0, 1};
+  const auto& node = static_cast<const BuiltNode&>(built);
+  Counts sum{1, 0};
+  for (std::uint32_t c = 0; c < node.count; ++c) {
+    const Counts below = counted(*node.children[c]);
+    sum.nodes += below.nodes;
+    sum.leaves += below.leaves;
+  }
+  return sum;
+}
+
 class Device {
  public:
   Device() : device_(rtcNewDevice(nullptr)) {
@@ -232,7 +247,11 @@ class Packer {
       rtcReleaseBVH(bvh);
       throw silvasim::base::Error("Embree could not build the tree of model \"" + from_.name + "\"");
     }
-    to_.blocks.reserve(triangles_.size() / 5);
+    primitives = {};
+    const Counts counts = counted(*root);
+    to_.blocks.reserve(counts.leaves);
+    to_.normals.reserve(counts.leaves * scene::block_size);
+    to_.nodes.reserve(std::max<std::size_t>(counts.nodes, 1));
     to_.nodes.resize(1);
     if (root->leaf) {
       BuiltNode above;
@@ -244,9 +263,6 @@ class Packer {
       fill(0, *static_cast<const BuiltNode*>(root), 0);
     }
     rtcReleaseBVH(bvh);
-    to_.nodes.shrink_to_fit();
-    to_.blocks.shrink_to_fit();
-    to_.normals.shrink_to_fit();
   }
 
   void fill(std::size_t index, const BuiltNode& built, int depth) {

@@ -1,11 +1,13 @@
-// A picture's rows as 8-bit RGBA, through OpenImageIO's cache.
+// A picture's rows as 8-bit RGBA; files through OpenImageIO's cache.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "silvavis/assets/texture.h"
+#include "silvavis/pictures/picture_file.h"
 
 namespace silvavis::assets {
 
@@ -13,9 +15,6 @@ class PictureRows {
  public:
   // Looks at the size only. Errors: base::Error for what is no known format, or too large.
   explicit PictureRows(const Picture& picture);
-  PictureRows(const PictureRows&) = delete;
-  PictureRows& operator=(const PictureRows&) = delete;
-  ~PictureRows();
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -25,8 +24,8 @@ class PictureRows {
   void read(int first, int end, std::vector<std::uint8_t>& rgba);
 
  private:
-  struct Source;
-  std::unique_ptr<Source> source_;
+  std::string name_;                             // for messages
+  std::unique_ptr<pictures::PictureFile> file_;  // none: one white pixel
   int width_ = 1;
   int height_ = 1;
   bool has_alpha_ = false;

@@ -100,6 +100,10 @@ void render(const RenderOptions& options) {
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   keep_asked(frame, options.aovs);
   write.metadata = metadata_of(*stage, settings.camera);
+  const std::size_t models = stage->scene.models.size(), tracer_bytes = stage->tracer->bytes();
+  // Writing needs memory too, and plants no longer do.
+  stage->tracer.reset();
+  stage->scene.models.clear();
   image::write(options.output, frame, write);
   silvasim::terminal::end_progress(common);
 
@@ -110,7 +114,7 @@ void render(const RenderOptions& options) {
     Json json;
     json["output"] = options.output.string();
     json["plants"] = stage->scene.plants;
-    json["models"] = stage->scene.models.size();
+    json["models"] = models;
     json["eye"] = place_text(stage->scene, settings.camera.eye);
     json["look_at"] = place_text(stage->scene, settings.camera.look_at);
     json["fov_deg"] = settings.camera.fov_deg;
@@ -119,7 +123,7 @@ void render(const RenderOptions& options) {
     json["samples_a_pixel"] = samples;
     json["rays"] = {{"eye", statistics.eye_rays}, {"shadow", statistics.shadow_rays}};
     json["bytes"] = {{"plants", stage->scene.plant_bytes()},
-                     {"tracer", stage->tracer->bytes()},
+                     {"tracer", tracer_bytes},
                      {"peak_rss", silvasim::base::peak_rss_bytes()}};
     json["seconds"] = {{"read", s.read},     {"models", s.models}, {"scene", s.scene},
                        {"tracer", s.tracer}, {"light", s.light},   {"render", seconds}};

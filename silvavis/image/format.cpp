@@ -17,18 +17,4 @@ Format format_of(const std::filesystem::path& path) {
   throw silvasim::base::Error("\"" + path.string() + "\": a picture's name ends in .exr, .png, .jpg or .tif");
 }
 
-const char* plugin_of(Format format) {
-  switch (format) {
-    case Format::exr:
-      return "openexr";
-    case Format::png:
-      return "png";
-    case Format::jpeg:
-      return "jpeg";
-    case Format::tiff:
-      return "tiff";
-  }
-  return "";
-}
-
 }  // namespace silvavis::image

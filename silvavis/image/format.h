@@ -3,14 +3,13 @@
 
 #include <filesystem>
 
+#include "silvavis/pictures/picture_file.h"
+
 namespace silvavis::image {
 
-enum class Format { exr, png, jpeg, tiff };
+using pictures::Format;
 
 // .exr, .png, .jpg, .jpeg, .tif, .tiff, in any case. Errors: base::Error that names the file and lists these.
 Format format_of(const std::filesystem::path& path);
-
-// What OpenImageIO calls it.
-const char* plugin_of(Format format);
 
 }  // namespace silvavis::image

@@ -1,10 +1,9 @@
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 
 #include "silvasim/base/error.h"
 #include "silvasim/base/file.h"
@@ -18,11 +17,12 @@ namespace silvavis::image {
 
 namespace fs = std::filesystem;
 namespace base = silvasim::base;
+using pictures::Sample;
 
 namespace {
 
 constexpr std::size_t most_file_bytes = std::size_t{8} << 30;
-constexpr int most_channels = 64;
+constexpr std::size_t most_channels = 64;
 // Deflate, the best packer among the formats, gains a factor of 1030; a file that promises more is lying.
 constexpr std::size_t most_bytes_a_byte = 2000, always_allowed_bytes = std::size_t{1} << 20;
 
@@ -31,107 +31,87 @@ constexpr std::size_t most_bytes_a_byte = 2000, always_allowed_bytes = std::size
   throw base::Error("cannot read \"" + path.string() + "\": " + base::shortened(why, 300));
 }
 
-// A picture's file in memory, opened by the one plugin that its name asks for, with its sizes checked.
+// A picture's file in memory, opened by the one reader that its name asks for, with its sizes checked.
 class Input {
  public:
   explicit Input(const fs::path& path)
       : path_(path), format_(format_of(path)), bytes_(base::read_file(path, most_file_bytes)) {
-    memory_ = std::make_unique<OIIO::Filesystem::IOMemReader>(bytes_.data(), bytes_.size());
-    guarded([&] {
-      input_ = OIIO::ImageInput::create(plugin_of(format_), false, nullptr, memory_.get());
-      OIIO::ImageSpec wish;
-      wish.attribute("oiio:UnassociatedAlpha", 1);
-      OIIO::ImageSpec spec;
-      input_->set_ioproxy(memory_.get());
-      if (!input_->open(path.filename().string(), spec, wish)) fail(path, message());
-    });
+    guarded([&] { file_ = pictures::open_bytes(format_, path.filename().string(), std::as_bytes(std::span(bytes_))); });
     check();
   }
 
-  const OIIO::ImageSpec& spec() const { return input_->spec(); }
+  const pictures::Shape& shape() const { return file_->shape(); }
   Format format() const { return format_; }
   std::size_t pixels() const {
-    return static_cast<std::size_t>(spec().width) * static_cast<std::size_t>(spec().height);
+    return static_cast<std::size_t>(shape().width) * static_cast<std::size_t>(shape().height);
   }
 
-  template <class Value>
-  void read(int first_channel, int end_channel, OIIO::TypeDesc type, Value* to) {
-    guarded([&] {
-      if (!input_->read_image(0, 0, first_channel, end_channel, type, to)) fail(path_, message());
-    });
+  void read(int first_channel, int end_channel, Sample sample, void* to) {
+    guarded([&] { file_->read(0, shape().height, first_channel, end_channel, sample, to); });
   }
 
  private:
-  std::string message() const {
-    const std::string text = input_->geterror();
-    return text.empty() ? "it is no " + path_.extension().string().substr(1) + " file, or a broken one" : text;
-  }
-
   template <class Act>
   void guarded(const Act& act) const {
     try {
       act();
-    } catch (const base::Error&) {
-      throw;
-    } catch (const std::exception& error) {
+    } catch (const base::Error& error) {
       fail(path_, error.what());
     }
   }
 
   void check() const {
-    const OIIO::ImageSpec& s = spec();
+    const pictures::Shape& s = shape();
     if (s.width < 1 || s.height < 1 || s.width > most_side_px || s.height > most_side_px || s.depth > 1 ||
         static_cast<long long>(s.width) * s.height > most_pixels) {
       fail(path_, fmt::format("it claims {} x {} x {} pixels; a side can have 1 to {}, and all together {} million",
                               s.width, s.height, s.depth, most_side_px, most_pixels >> 20));
     }
-    if (s.nchannels < 1 || s.nchannels > most_channels || s.deep) {
-      fail(path_, fmt::format("it has {} channels{}; a picture has 1 to {}, flat", s.nchannels, s.deep ? ", deep" : "",
-                              most_channels));
+    if (s.channels.empty() || s.channels.size() > most_channels || s.deep) {
+      fail(path_, fmt::format("it has {} channels{}; a picture has 1 to {}, flat", s.channels.size(),
+                              s.deep ? ", deep" : "", most_channels));
     }
-    const std::size_t claimed = pixels() * s.pixel_bytes(true);
+    const std::size_t claimed = pixels() * s.pixel_bytes;
     if (claimed > always_allowed_bytes && claimed / most_bytes_a_byte > bytes_.size()) {
       fail(path_, fmt::format("it claims {} x {} pixels with {} channels, which no file of {} bytes holds", s.width,
-                              s.height, s.nchannels, bytes_.size()));
+                              s.height, s.channels.size(), bytes_.size()));
     }
   }
 
   fs::path path_;
   Format format_;
   std::string bytes_;
-  std::unique_ptr<OIIO::Filesystem::IOMemReader> memory_;
-  std::unique_ptr<OIIO::ImageInput> input_;
+  std::unique_ptr<pictures::PictureFile> file_;
 };
 
-int channel_named(const OIIO::ImageSpec& spec, const std::string& name) {
-  const auto at = std::find(spec.channelnames.begin(), spec.channelnames.end(), name);
-  return at == spec.channelnames.end() ? -1 : static_cast<int>(at - spec.channelnames.begin());
+int channel_named(const pictures::Shape& shape, const std::string& name) {
+  const auto at = std::find_if(shape.channels.begin(), shape.channels.end(),
+                               [&](const pictures::Shape::Channel& channel) { return channel.name == name; });
+  return at == shape.channels.end() ? -1 : static_cast<int>(at - shape.channels.begin());
 }
-
-bool whole_numbers(OIIO::TypeDesc type) { return type == OIIO::TypeDesc::UINT8 || type == OIIO::TypeDesc::UINT16; }
 
 // The named channels side by side, or an empty image where one is missing.
 Image named(Input& input, std::initializer_list<const char*> names) {
   std::vector<int> indices;
-  for (const char* name : names) indices.push_back(channel_named(input.spec(), name));
+  for (const char* name : names) indices.push_back(channel_named(input.shape(), name));
   if (std::find(indices.begin(), indices.end(), -1) != indices.end()) return {};
-  Image image(input.spec().width, input.spec().height, static_cast<int>(indices.size()));
+  Image image(input.shape().width, input.shape().height, static_cast<int>(indices.size()));
   std::vector<float> one(input.pixels());
   for (std::size_t c = 0; c < indices.size(); ++c) {
-    input.read(indices[c], indices[c] + 1, OIIO::TypeDesc::FLOAT, one.data());
+    input.read(indices[c], indices[c] + 1, Sample::f32, one.data());
     for (std::size_t i = 0; i < one.size(); ++i) image.pixels[i * indices.size() + c] = one[i];
   }
   return image;
 }
 
 std::vector<std::uint32_t> whole(Input& input, const fs::path& path, const char* name) {
-  const int channel = channel_named(input.spec(), name);
+  const int channel = channel_named(input.shape(), name);
   if (channel < 0) return {};
-  if (input.spec().channelformat(channel) != OIIO::TypeDesc::UINT32) {
+  if (input.shape().channels[static_cast<std::size_t>(channel)].sample != Sample::u32) {
     fail(path, fmt::format("its channel \"{}\" holds fractions; it must hold whole numbers (UINT)", name));
   }
   std::vector<std::uint32_t> values(input.pixels());
-  input.read(channel, channel + 1, OIIO::TypeDesc::UINT32, values.data());
+  input.read(channel, channel + 1, Sample::u32, values.data());
   return values;
 }
 
@@ -147,12 +127,12 @@ void linearize(Image& image, int colours) {
 
 // Grey (and alpha) or colours (and alpha), in the order in which the file has them.
 Image first_channels(Input& input) {
-  const OIIO::ImageSpec& spec = input.spec();
-  const int taken = std::min(spec.nchannels, 4);
+  const pictures::Shape& shape = input.shape();
+  const int taken = std::min(static_cast<int>(shape.channels.size()), 4);
   const bool grey = taken < 3, alpha = taken == 2 || taken == 4;
   std::vector<float> values(input.pixels() * static_cast<std::size_t>(taken));
-  input.read(0, taken, OIIO::TypeDesc::FLOAT, values.data());
-  Image image(spec.width, spec.height, alpha ? 4 : 3);
+  input.read(0, taken, Sample::f32, values.data());
+  Image image(shape.width, shape.height, alpha ? 4 : 3);
   const std::size_t step = static_cast<std::size_t>(taken), channels = static_cast<std::size_t>(image.channels);
   for (std::size_t i = 0; i < input.pixels(); ++i) {
     const float* from = values.data() + i * step;
@@ -164,17 +144,15 @@ Image first_channels(Input& input) {
 }
 
 Image colours_of(Input& input, const fs::path& path) {
-  const OIIO::ImageSpec& spec = input.spec();
-  if (input.format() == Format::exr && spec.nchannels > 1) {
+  if (input.format() == Format::exr && input.shape().channels.size() > 1) {
     Image image = named(input, {"R", "G", "B"});
     if (image.empty()) fail(path, "it has no channels R, G and B");
     return image;
   }
-  const bool encoded = whole_numbers(spec.format);
-  if (!encoded && spec.format != OIIO::TypeDesc::FLOAT && spec.format != OIIO::TypeDesc::HALF) {
-    fail(path,
-         fmt::format("its pixels are of type {}; they can be of 8 or 16 bit, half or float", spec.format.c_str()));
-  }
+  const Sample sample = input.shape().channels[0].sample;
+  const bool encoded = sample == Sample::u8 || sample == Sample::u16;
+  if (!encoded && sample != Sample::f32 && sample != Sample::half)
+    fail(path, "its pixels are of another type than 8 or 16 bit, half or float");
   Image image = first_channels(input);
   if (encoded) linearize(image, 3);
   return image;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "silvavis/levels/silhouette.h"
@@ -40,10 +41,19 @@ class Pieces {
 };
 
 struct Leaf {
-  std::vector<std::uint32_t> triangles;
+  std::uint32_t first = 0, count = 0;  // in Leaves::triangles
   V3 centre{0, 0, 0};
   float area = 0;
   std::uint64_t place = 0;  // along a curve through the crown
+};
+
+struct Leaves {
+  std::vector<std::uint32_t> triangles;  // leaf by leaf, each leaf's in the model's order
+  std::vector<Leaf> leaves;
+
+  std::span<const std::uint32_t> of(const Leaf& leaf) const {
+    return std::span(triangles).subspan(leaf.first, leaf.count);
+  }
 };
 
 // The place on a Morton curve of 2^16 steps a side, so that even steps through the order are even in space.
@@ -56,7 +66,7 @@ std::uint64_t morton(const V3& p, const V3& least, float size) {
   return code;
 }
 
-std::vector<Leaf> leaves_of(const Model& model) {
+Leaves leaves_of(const Model& model) {
   Pieces pieces(model.positions.size());
   for (std::size_t t = 0; t < model.triangles.size(); ++t) {
     if (!is_leaf(model.materials[model.triangle_materials[t]])) continue;
@@ -64,7 +74,8 @@ std::vector<Leaf> leaves_of(const Model& model) {
     pieces.join(model.triangles[t][0], model.triangles[t][2]);
   }
   std::vector<std::uint32_t> number(model.positions.size(), 0xFFFFFFFF);
-  std::vector<Leaf> leaves;
+  Leaves all;
+  std::vector<Leaf>& leaves = all.leaves;
   V3 least = model.positions[0], most = least;
   for (const V3& p : model.positions) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -83,21 +94,59 @@ std::vector<Leaf> leaves_of(const Model& model) {
     const V3 &a = model.positions[model.triangles[t][0]], &b = model.positions[model.triangles[t][1]],
              &c = model.positions[model.triangles[t][2]];
     const float area = 0.5f * (b - a).cross(c - a).length();
-    leaf.triangles.push_back(t);
+    ++leaf.count;
     leaf.centre += (a + b + c) * (area / 3);
     leaf.area += area;
   }
   const V3 size = most - least;
   const float side = std::max({size.x, size.y, size.z, 1e-6f});
+  std::uint32_t sum = 0;
   for (Leaf& leaf : leaves) {
     if (leaf.area > 0) leaf.centre /= leaf.area;
     leaf.place = morton(leaf.centre, least, side);
+    leaf.first = sum;
+    sum += leaf.count;
+    leaf.count = 0;
   }
-  std::sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) {
-    return a.place != b.place ? a.place < b.place : a.triangles[0] < b.triangles[0];
+  all.triangles.resize(sum);
+  for (std::uint32_t t = 0; t < model.triangles.size(); ++t) {
+    if (!is_leaf(model.materials[model.triangle_materials[t]])) continue;
+    Leaf& leaf = leaves[number[pieces.root(model.triangles[t][0])]];
+    all.triangles[leaf.first + leaf.count++] = t;
+  }
+  std::sort(leaves.begin(), leaves.end(), [&](const Leaf& a, const Leaf& b) {
+    return a.place != b.place ? a.place < b.place : all.triangles[a.first] < all.triangles[b.first];
   });
-  return leaves;
+  return all;
 }
+
+// The vertices of some triangles, in the model's order, and two that are as far apart as the whole model reaches, because
+// meshoptimizer's errors are shares of that. It takes a hundred bytes for each vertex that it is shown.
+struct FewVertices {
+  std::vector<std::uint32_t> vertices;  // in the model
+  std::vector<V3> positions;
+  std::vector<unsigned int> indices;
+
+  FewVertices(const Model& from, const std::vector<unsigned int>& corners) {
+    std::vector<std::uint32_t> number(from.positions.size(), 0xFFFFFFFF);
+    for (const unsigned int corner : corners) number[corner] = 0;
+    V3 least = from.positions[0], most = least;
+    for (std::uint32_t v = 0; v < number.size(); ++v) {
+      const V3& p = from.positions[v];
+      for (int axis = 0; axis < 3; ++axis) {
+        least[axis] = std::min(least[axis], p[axis]);
+        most[axis] = std::max(most[axis], p[axis]);
+      }
+      if (number[v] != 0) continue;
+      number[v] = static_cast<std::uint32_t>(vertices.size());
+      vertices.push_back(v);
+      positions.push_back(p);
+    }
+    positions.push_back(least);
+    positions.push_back(most);
+    for (const unsigned int corner : corners) indices.push_back(number[corner]);
+  }
+};
 
 // The wood with about `target` triangles.
 void add_wood(const Model& from, std::size_t target, Model& to) {
@@ -118,8 +167,10 @@ void add_wood(const Model& from, std::size_t target, Model& to) {
         std::max<std::size_t>(4, indices.size() / 3 * target / std::max<std::size_t>(all, 1)) * 3;
     if (wanted < indices.size()) {
       std::vector<unsigned int> simpler(indices.size());
-      std::size_t count = meshopt_simplify(simpler.data(), indices.data(), indices.size(), &from.positions[0].x,
-                                           from.positions.size(), sizeof(V3), wanted, 1.0f, 0, nullptr);
+      const FewVertices few(from, indices);
+      std::size_t count = meshopt_simplify(simpler.data(), few.indices.data(), indices.size(), &few.positions[0].x,
+                                           few.positions.size(), sizeof(V3), wanted, 1.0f, 0, nullptr);
+      for (std::size_t i = 0; i < count; ++i) simpler[i] = few.vertices[simpler[i]];
       if (count > wanted + wanted / 2) {
         count = meshopt_simplifySloppy(simpler.data(), indices.data(), indices.size(), &from.positions[0].x,
                                        from.positions.size(), sizeof(V3), wanted, 1.0f, nullptr);
@@ -167,9 +218,9 @@ struct Limits {
   }
 };
 
-void add_leaf(const Model& from, const Leaf& leaf, float across, float upward, const Limits& limits, Model& to,
-              std::vector<std::uint32_t>& number) {
-  for (const std::uint32_t t : leaf.triangles) {
+void add_leaf(const Model& from, const Leaf& leaf, std::span<const std::uint32_t> triangles, float across, float upward,
+              const Limits& limits, Model& to, std::vector<std::uint32_t>& number) {
+  for (const std::uint32_t t : triangles) {
     std::array<std::uint32_t, 3> corners;
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint32_t old = from.triangles[t][c];
@@ -205,11 +256,10 @@ double top_area(const Model& model, float cell_m) {
 }  // namespace
 
 Thinned thinned(const Model& model, double share) {
-  const std::vector<Leaf> leaves = leaves_of(model);
-  std::size_t leaf_triangles = 0;
-  for (const Leaf& leaf : leaves) leaf_triangles += leaf.triangles.size();
+  const Leaves all = leaves_of(model);
+  const std::vector<Leaf>& leaves = all.leaves;
   const auto wood_target =
-      static_cast<std::size_t>(static_cast<double>(model.triangles.size() - leaf_triangles) * share);
+      static_cast<std::size_t>(static_cast<double>(model.triangles.size() - all.triangles.size()) * share);
 
   Model bare;
   bare.name = model.name;
@@ -223,8 +273,8 @@ Thinned thinned(const Model& model, double share) {
     std::vector<std::uint32_t> number(model.positions.size(), 0xFFFFFFFF);
     for (std::size_t i = 0; i < std::min(kept, leaves.size()); ++i) {
       // The middle of each even part of the curve.
-      add_leaf(model, leaves[(2 * i + 1) * leaves.size() / (2 * std::min(kept, leaves.size()))], across, upward, limits,
-               out, number);
+      const Leaf& leaf = leaves[(2 * i + 1) * leaves.size() / (2 * std::min(kept, leaves.size()))];
+      add_leaf(model, leaf, all.of(leaf), across, upward, limits, out, number);
     }
     return out;
   };
@@ -251,7 +301,8 @@ Thinned thinned(const Model& model, double share) {
 
 float leaf_size(const Model& model) {
   std::vector<float> sizes;
-  for (const Leaf& leaf : leaves_of(model)) sizes.push_back(std::sqrt(leaf.area));
+  const Leaves all = leaves_of(model);
+  for (const Leaf& leaf : all.leaves) sizes.push_back(std::sqrt(leaf.area));
   if (sizes.empty()) {
     for (const auto& t : model.triangles)
       sizes.push_back(std::sqrt(0.5f * (model.positions[t[1]] - model.positions[t[0]])

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "silvasim/base/error.h"
+#include "silvasim/base/machine.h"
 #include "silvasim/base/parallel.h"
 #include "silvavis/scene/instance.h"
 #include "silvavis/scene/tile_sites.h"
@@ -94,7 +95,8 @@ std::array<HeightRange, quarters * quarters> place_plants(const Scene& scene, Pl
   return ranges;
 }
 
-void place_layer(Scene& scene, PlantLayer& layer, const ecosystem::Layer& from) {
+// Uses the plants of `from` up, row by row.
+void place_layer(Scene& scene, PlantLayer& layer, ecosystem::Layer& from) {
   const std::size_t positions = layer.tiles.size();
   layer.base_m.resize(positions);
   layer.step_m.resize(positions);
@@ -117,6 +119,9 @@ void place_layer(Scene& scene, PlantLayer& layer, const ecosystem::Layer& from) 
                         layer.plant_species.begin() + static_cast<std::ptrdiff_t>(layer.first_slot[position + 1]),
                         [](std::uint8_t species) { return species != no_species; }));
     }
+    const std::uint64_t first = layer.first_slot[layer.position(0, row)],
+                        end = layer.first_slot[layer.position(layer.columns - 1, row) + 1];
+    silvasim::base::give_back_pages(from.plants.data() + first, (end - first) * sizeof(ecosystem::PlantId));
   });
   for (const std::uint64_t count : standing) scene.plants += count;
 
@@ -285,6 +290,8 @@ Scene make_scene(ecosystem::Ecosystem from, const std::vector<std::vector<Specie
   make_land(scene);
   // The land's holds it.
   if (!scene.layers.empty()) scene.layers.front().pyramid = {};
+  from = {};
+  silvasim::base::give_back_free_memory();
   return scene;
 }
 
