@@ -180,8 +180,9 @@ shade::SceneBox scene_box(const scene::Scene& scene) {
   shade::SceneBox box{scene.extent, static_cast<double>(ground.origin_m),
                       static_cast<double>(land.origin_m + 65535 * land.step_m)};
   for (const scene::PlantLayer& layer : scene.layers)
-    box.greatest_z_m =
-        std::max(box.greatest_z_m, static_cast<double>(layer.pyramid.origin_m + 65535 * layer.pyramid.step_m));
+    if (!layer.pyramid.levels.empty())
+      box.greatest_z_m =
+          std::max(box.greatest_z_m, static_cast<double>(layer.pyramid.origin_m + 65535 * layer.pyramid.step_m));
   return box;
 }
 

@@ -11,7 +11,7 @@
 namespace silvavis::commands {
 
 // Keys are characters: capitals, digits and signs as they are; W A S D Q E are places on the keyboard, the same ones on any layout.
-inline constexpr char key_escape = '\x1b', key_left = '<', key_right = '>', key_up = '^', key_down = 'v';
+inline constexpr char key_escape = '\x1b', key_left = '\x01', key_right = '\x02', key_up = '\x03', key_down = '\x04';
 
 struct Press {
   char key = 0;

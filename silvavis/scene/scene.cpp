@@ -263,7 +263,7 @@ Scene make_scene(ecosystem::Ecosystem from, const std::vector<std::vector<Specie
     ecosystem::Layer& source = from.layers[k];
     if (source.species.size() > no_species) {
       throw silvasim::base::Error("layer \"" + source.name + "\" has " + std::to_string(source.species.size()) +
-                                  " species; pictures hold at most 254 a layer");
+                                  " species; pictures hold at most 255 a layer");
     }
     PlantLayer layer;
     layer.name = source.name;
