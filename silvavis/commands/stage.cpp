@@ -148,7 +148,8 @@ void set_light(Stage& stage, const StageOptions& options, double eye_z_m) {
   sky.sun_direction = shade::sun_direction(stage.sun, stage.convergence_deg);
   sky.visibility_km = options.visibility_km;
   sky.ground_albedo = stage.albedo;
-  sky.eye_height_m = std::max(2.0, eye_z_m - static_cast<double>(stage.scene.ground.pyramid.origin_m));
+  // Above 49 km next to no air is left, and the sky knows none.
+  sky.eye_height_m = std::clamp(eye_z_m - static_cast<double>(stage.scene.ground.pyramid.origin_m), 2.0, 49e3);
   stage.light = std::make_unique<Light>(sky);
 }
 

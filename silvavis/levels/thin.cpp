@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -167,10 +168,11 @@ void add_wood(const Model& from, std::size_t target, Model& to) {
         std::max<std::size_t>(4, indices.size() / 3 * target / std::max<std::size_t>(all, 1)) * 3;
     if (wanted < indices.size()) {
       std::vector<unsigned int> simpler(indices.size());
-      const FewVertices few(from, indices);
-      std::size_t count = meshopt_simplify(simpler.data(), few.indices.data(), indices.size(), &few.positions[0].x,
-                                           few.positions.size(), sizeof(V3), wanted, 1.0f, 0, nullptr);
-      for (std::size_t i = 0; i < count; ++i) simpler[i] = few.vertices[simpler[i]];
+      std::optional<FewVertices> few(std::in_place, from, indices);
+      std::size_t count = meshopt_simplify(simpler.data(), few->indices.data(), indices.size(), &few->positions[0].x,
+                                           few->positions.size(), sizeof(V3), wanted, 1.0f, 0, nullptr);
+      for (std::size_t i = 0; i < count; ++i) simpler[i] = few->vertices[simpler[i]];
+      few.reset();
       if (count > wanted + wanted / 2) {
         count = meshopt_simplifySloppy(simpler.data(), indices.data(), indices.size(), &from.positions[0].x,
                                        from.positions.size(), sizeof(V3), wanted, 1.0f, nullptr);
