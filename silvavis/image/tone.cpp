@@ -107,10 +107,10 @@ double automatic_exposure(std::span<const Image> images) {
   if (std::all_of(histogram.begin(), histogram.end(), [](std::uint64_t pixels) { return pixels == 0; })) return 0;
   // The darkest twentieth is shadow and the brightest is sky or glitter: neither tells how bright the scene is.
   const double middle_stops = mean_stops(histogram, 0.05, 0.95);
-  // Half a stop above a grey card (log2 of 0.18): a landscape is seen out of doors, with eyes used to light.
-  constexpr double grey_stops = -2.4739 + 0.5;
-  const double wanted = grey_stops - middle_stops;
-  // By day a landscape of dark woods stays darker than a grey card, by night it stays night.
+  // A little lighter than a grey card (0.18), at which pictures of woods look like dusk.
+  constexpr double quarter_stops = -2;  // log2 of 0.25
+  const double wanted = quarter_stops - middle_stops;
+  // By day a landscape of dark woods stays darker than that, by night it stays night.
   constexpr double share_of_dark = 0.8, most_stops = 12, least_stops = -8;
   return std::clamp(wanted > 0 ? share_of_dark * wanted : wanted, least_stops, most_stops);
 }

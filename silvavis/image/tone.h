@@ -16,7 +16,7 @@
 namespace silvavis::image {
 
 // Stops that show the picture well: the mean of the logarithms of luminance, without the darkest and the brightest
-// pixels, becomes middle grey; a picture whose middle is dark is lightened a little less than that, so that dusk stays
+// pixels, becomes 0.25, a little lighter than a grey card; a picture whose middle is dark is lightened a little less than that, so that dusk stays
 // dusk. Black and empty pictures give 0.
 //
 // For a flight ask once, for one frame or several of them, and give the answer to every frame: then nothing flickers.

@@ -112,10 +112,10 @@ TEST(Tone, APictureIsItsPixelsOneByOneOnAnyThreadCount) {
   EXPECT_EQ(tone_mapped(light, 1.5), shown);
 }
 
-TEST(Tone, ExposureBringsTheMiddleToGreyAndFollowsTheLight) {
-  EXPECT_NEAR(automatic_exposure(even(0.18f)), 0, 0.05);
-  EXPECT_NEAR(automatic_exposure(even(0.18f * 8)), -3, 0.05);       // too bright: all the way back
-  EXPECT_NEAR(automatic_exposure(even(0.18f / 8)), 3 * 0.8, 0.05);  // dark: most of the way
+TEST(Tone, ExposureBringsTheMiddleToAQuarterAndFollowsTheLight) {
+  EXPECT_NEAR(automatic_exposure(even(0.25f)), 0, 0.05);
+  EXPECT_NEAR(automatic_exposure(even(0.25f * 8)), -3, 0.05);       // too bright: all the way back
+  EXPECT_NEAR(automatic_exposure(even(0.25f / 8)), 3 * 0.8, 0.05);  // dark: most of the way
   EXPECT_EQ(automatic_exposure(even(0)), 0);
   EXPECT_EQ(automatic_exposure(Image{}), 0);
   EXPECT_LE(automatic_exposure(even(1e-9f)), 12);  // night stays night
