@@ -103,8 +103,16 @@ class Session {
   }
 
   void follow_pilot() {
-    settings_.camera.eye = pilot_.eye;
-    settings_.camera.look_at = look_at_of(pilot_);
+    settings_.camera.eye = as_printed(pilot_.eye);
+    settings_.camera.look_at = as_printed(look_at_of(pilot_));
+  }
+
+  // To the millimetre, in the scene's metres: a camera that is printed and read again is the same to the last bit, and so is
+  // the grain of its picture.
+  V3d as_printed(const V3d& p) const {
+    const silvasim::base::Point& origin = stage_.scene.origin;
+    const auto rounded = [](double at) { return std::round(at * 1000) / 1000; };
+    return {rounded(p.x + origin.x) - origin.x, rounded(p.y + origin.y) - origin.y, rounded(p.z)};
   }
 
   // Keys that are commands. False: end.

@@ -113,9 +113,8 @@ TEST_F(View, FliesAndPrintsTheCameraThatRenderTakes) {
   };
   const auto saved = silvavis::image::read(folder_ / "v-1.exr");
   const double alike = silvavis::image::compare(render("view-1"), saved).rmse;
-  EXPECT_LT(alike, 0.01);
-  // The printed camera is rounded, so distant plants' grain is another: alike is not the same.
-  EXPECT_GT(silvavis::image::compare(render("view-2"), saved).rmse, 1.5 * alike + 0.003) << "R did not return";
+  EXPECT_LT(alike, 0.001);
+  EXPECT_GT(silvavis::image::compare(render("view-2"), saved).rmse, 3 * alike + 0.01) << "R did not return";
   EXPECT_EQ(place(flown.json()["eye"]), place(begin["eye"]));
 }
 
@@ -127,13 +126,10 @@ TEST_F(View, FollowsTheWindow) {
 }
 
 TEST_F(View, EndsByItself) {
-  const Outcome three = run("view", {"--frames", "3", "--json"}, "4000");
+  const Outcome three = run("view", {"--frames", "3", "--json", "--error", "0"}, "60000");
   ASSERT_EQ(three.code, 0) << three.err;
-  const auto pictures = three.json()["pictures"];
-  EXPECT_EQ(pictures["first"]["count"], 1);
-  // A fast machine finishes the picture sooner than in three.
-  EXPECT_GE(pictures["refined"]["count"].get<int>(), 1);
-  EXPECT_LE(pictures["refined"]["count"].get<int>(), 2);
+  EXPECT_EQ(three.json()["pictures"]["first"]["count"], 1);
+  EXPECT_EQ(three.json()["pictures"]["refined"]["count"], 2);
   EXPECT_EQ(run("view", {"--frames", "1000000"}, "1").code, 0) << "it does not end with the finished picture";
   EXPECT_EQ(play("press Esc\nhold W 1000000\n").code, 0);
   write(folder_ / "long.txt", "hold A 1000000\n");
