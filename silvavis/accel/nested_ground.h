@@ -111,7 +111,8 @@ HWY_INLINE void walk_pyramid(const scene::Pyramid& pyramid, const FlatRay& ray, 
   }
 }
 
-// Narrows an entry of level 0 to where the ray crosses the boxes of its items; false: nowhere.
+// Where between near and far the ray crosses the boxes of a level 0 node's items; false: nowhere. How the walk came to the node
+// makes no difference.
 HWY_INLINE bool narrow(const scene::Pyramid& pyramid, const FlatRay& ray, PyramidEntry& entry) {
   PyramidCrossing crossing;
   std::uint32_t hits = crossing.cross(pyramid, ray, entry, entry.far);

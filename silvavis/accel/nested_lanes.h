@@ -52,6 +52,7 @@ HWY_INLINE float inverse(float x) { return std::abs(x) < 1e-18f ? (x < 0 ? -1e18
 // A ray in floats of world space, for boxes only: all that hits something is decided nearer to it.
 struct FlatRay {
   float ox, oy, oz, dx, dy, dz, ix, iy, iz;
+  FlatRay() = default;
   explicit FlatRay(const Ray& ray)
       : ox(static_cast<float>(ray.origin.x)),
         oy(static_cast<float>(ray.origin.y)),

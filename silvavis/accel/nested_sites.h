@@ -25,8 +25,14 @@ struct LayerWalk {
   Hit& hit;
   bool found;
 
-  HWY_INLINE bool operator()(PyramidEntry entry) {
-    return narrow(layer.pyramid, flat, entry) && meet_tile(entry.column, entry.row, entry);
+  HWY_INLINE bool operator()(int column, int row) {
+    PyramidEntry entry = whole_ray(column, row);
+    return narrow(layer.pyramid, flat, entry) && meet_tile(column, row, entry);
+  }
+
+  // As an entry of level 0, whatever boxes the walk came through.
+  HWY_INLINE PyramidEntry whole_ray(int column, int row) const {
+    return {static_cast<float>(ray.least), static_cast<float>(std::min(best, 1e30)), 0, column, row};
   }
 
   // A tile position whose box the ray crosses.

@@ -6,10 +6,10 @@
 #include <hwy/highway.h>
 #include <hwy/targets.h>
 
-#include <cstring>
 #include <vector>
 
 #include "made_forest.h"
+#include "same_bits.h"
 #include "silvasim/base/random.h"
 #include "silvavis/accel/nested.h"
 #include "silvavis/accel/pack.h"
@@ -38,17 +38,6 @@ struct Answers {
   std::vector<std::uint8_t> barred;
   std::vector<accel::ModelPoint> points;
 };
-
-template <typename Value>
-bool same_bits(const Value& a, const Value& b) {
-  return std::memcmp(&a, &b, sizeof(Value)) == 0;
-}
-
-bool same(const accel::Hit& a, const accel::Hit& b) {
-  return same_bits(a.distance, b.distance) && a.surface == b.surface && a.layer == b.layer && a.species == b.species &&
-         a.column == b.column && a.row == b.row && a.site_slot == b.site_slot && a.model == b.model &&
-         a.level == b.level && a.slot == b.slot && same_bits(a.u, b.u) && same_bits(a.v, b.v);
-}
 
 }  // namespace
 
