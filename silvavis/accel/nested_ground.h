@@ -31,6 +31,54 @@ HWY_INLINE std::uint32_t turned_bits(std::uint32_t bits, bool flip_x, bool flip_
   return bits;
 }
 
+// Lanes of a node's children: between which distances the ray is above the child's cell, and between which in its box.
+struct ChildLanes {
+  V8 comes, goes, near, far;
+  M8 crossed;
+  V8 to_low, high, iz;  // to the box's bottom along the ray; its top above the ray's origin
+};
+
+// Calls each(k, lanes) for the children k, k + 1, … of a node, as many as there are lanes.
+template <typename Each>
+HWY_INLINE void each_child(const scene::Pyramid& pyramid, const FlatRay& ray, const PyramidEntry& entry, float most,
+                           const Each& each) {
+  const bool flip_x = ray.dx < 0, flip_y = ray.dy < 0;
+  const float margin = pyramid.margin_m + 0.01f;  // floats of world space are off by millimetres
+  constexpr float slack_m = 0.05f;
+  HWY_ALIGN static constexpr float columns[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+  HWY_ALIGN static constexpr float rows[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+  // Heights are counted from the ray's origin.
+  const V8 step = hn::Set(f8, pyramid.step_m), iz = hn::Set(f8, ray.iz);
+  const V8 below = hn::Set(f8, pyramid.origin_m - ray.oz - slack_m),
+           above = hn::Set(f8, pyramid.origin_m - ray.oz + slack_m);
+  const scene::Pyramid::Level& level = pyramid.levels[static_cast<std::size_t>(entry.level)];
+  const scene::PyramidNode& node =
+      level.nodes[static_cast<std::size_t>(entry.row) * static_cast<std::size_t>(level.columns) +
+                  static_cast<std::size_t>(entry.column)];
+  const auto across = static_cast<float>(1u << (2 * entry.level));
+  const float cell_x = pyramid.cell_x_m * across, cell_y = pyramid.cell_y_m * across;
+  const float west = pyramid.west + static_cast<float>(entry.column * 4) * cell_x - ray.ox;
+  const float south = pyramid.south + static_cast<float>(entry.row * 4) * cell_y - ray.oy;
+  // Near and far planes of the first column and row; the others follow cell by cell.
+  const float x_in = (west + (flip_x ? cell_x + margin : -margin)) * ray.ix,
+              x_out = (west + (flip_x ? -margin : cell_x + margin)) * ray.ix;
+  const float y_in = (south + (flip_y ? cell_y + margin : -margin)) * ray.iy,
+              y_out = (south + (flip_y ? -margin : cell_y + margin)) * ray.iy;
+  const V8 per_x = hn::Set(f8, cell_x * ray.ix), per_y = hn::Set(f8, cell_y * ray.iy);
+  const V8 least = hn::Set(f8, entry.near), greatest = hn::Set(f8, std::min(entry.far, most));
+  for (std::size_t k = 0; k < 16; k += hn::Lanes(f8)) {
+    const V8 to_x = hn::Mul(hn::Load(f8, columns + k), per_x), to_y = hn::Mul(hn::Load(f8, rows + k), per_y);
+    const V8 stored_low = floats_of(node.least.data() + k), stored_high = floats_of(node.most.data() + k);
+    const V8 low = hn::Add(below, hn::Mul(step, stored_low)), high = hn::Add(above, hn::Mul(step, stored_high));
+    const V8 to_low = hn::Mul(low, iz), to_high = hn::Mul(high, iz);
+    const V8 comes = hn::Max(hn::Max(hn::Add(hn::Set(f8, x_in), to_x), hn::Add(hn::Set(f8, y_in), to_y)), least);
+    const V8 goes = hn::Min(hn::Min(hn::Add(hn::Set(f8, x_out), to_x), hn::Add(hn::Set(f8, y_out), to_y)), greatest);
+    const V8 near = hn::Max(comes, hn::Min(to_low, to_high)), far = hn::Min(goes, hn::Max(to_low, to_high));
+    const M8 crossed = hn::And(hn::Le(near, far), hn::Le(stored_low, stored_high));
+    each(k, ChildLanes{comes, goes, near, far, crossed, to_low, high, iz});
+  }
+}
+
 // Where the ray crosses the boxes of a node's children.
 struct PyramidCrossing {
   HWY_ALIGN float nears[16];
@@ -39,47 +87,27 @@ struct PyramidCrossing {
   // Bits of the children crossed no farther than `most`.
   HWY_INLINE std::uint32_t cross(const scene::Pyramid& pyramid, const FlatRay& ray, const PyramidEntry& entry,
                                  float most) {
-    const bool flip_x = ray.dx < 0, flip_y = ray.dy < 0;
-    const float margin = pyramid.margin_m + 0.01f;  // floats of world space are off by millimetres
-    constexpr float slack_m = 0.05f;
-    HWY_ALIGN static constexpr float columns[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
-    HWY_ALIGN static constexpr float rows[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-    // Heights are counted from the ray's origin.
-    const V8 step = hn::Set(f8, pyramid.step_m), iz = hn::Set(f8, ray.iz);
-    const V8 below = hn::Set(f8, pyramid.origin_m - ray.oz - slack_m),
-             above = hn::Set(f8, pyramid.origin_m - ray.oz + slack_m);
-    const scene::Pyramid::Level& level = pyramid.levels[static_cast<std::size_t>(entry.level)];
-    const scene::PyramidNode& node =
-        level.nodes[static_cast<std::size_t>(entry.row) * static_cast<std::size_t>(level.columns) +
-                    static_cast<std::size_t>(entry.column)];
-    const auto across = static_cast<float>(1u << (2 * entry.level));
-    const float cell_x = pyramid.cell_x_m * across, cell_y = pyramid.cell_y_m * across;
-    const float west = pyramid.west + static_cast<float>(entry.column * 4) * cell_x - ray.ox;
-    const float south = pyramid.south + static_cast<float>(entry.row * 4) * cell_y - ray.oy;
-    // Near and far planes of the first column and row; the others follow cell by cell.
-    const float x_in = (west + (flip_x ? cell_x + margin : -margin)) * ray.ix,
-                x_out = (west + (flip_x ? -margin : cell_x + margin)) * ray.ix;
-    const float y_in = (south + (flip_y ? cell_y + margin : -margin)) * ray.iy,
-                y_out = (south + (flip_y ? -margin : cell_y + margin)) * ray.iy;
-    const V8 per_x = hn::Set(f8, cell_x * ray.ix), per_y = hn::Set(f8, cell_y * ray.iy);
-    const V8 least = hn::Set(f8, entry.near), greatest = hn::Set(f8, std::min(entry.far, most));
     std::uint32_t hits = 0;
-    for (std::size_t k = 0; k < 16; k += hn::Lanes(f8)) {
-      const V8 to_x = hn::Mul(hn::Load(f8, columns + k), per_x), to_y = hn::Mul(hn::Load(f8, rows + k), per_y);
-      const V8 stored_low = floats_of(node.least.data() + k), stored_high = floats_of(node.most.data() + k);
-      const V8 low = hn::Add(below, hn::Mul(step, stored_low)), high = hn::Add(above, hn::Mul(step, stored_high));
-      const V8 to_low = hn::Mul(low, iz), to_high = hn::Mul(high, iz);
-      const V8 near = hn::Max(hn::Max(hn::Add(hn::Set(f8, x_in), to_x), hn::Add(hn::Set(f8, y_in), to_y)),
-                              hn::Max(hn::Min(to_low, to_high), least));
-      const V8 far = hn::Min(hn::Min(hn::Add(hn::Set(f8, x_out), to_x), hn::Add(hn::Set(f8, y_out), to_y)),
-                             hn::Min(hn::Max(to_low, to_high), greatest));
-      const auto crossed = hn::And(hn::Le(near, far), hn::Le(stored_low, stored_high));
-      hn::Store(near, f8, nears + k);
-      hn::Store(far, f8, fars + k);
-      hits |= bits_of(f8, crossed) << k;
-    }
+    each_child(pyramid, ray, entry, most, [&](std::size_t k, const ChildLanes& lanes) HWY_ATTR {
+      hn::Store(lanes.near, f8, nears + k);
+      hn::Store(lanes.far, f8, fars + k);
+      hits |= bits_of(f8, lanes.crossed) << k;
+    });
     return hits;
   }
+};
+
+// From the nearest begin to the farthest end of what the ray crosses; near > far: nothing.
+struct Stretch {
+  V8 nears, fars;
+
+  HWY_INLINE Stretch() : nears(hn::Set(f8, 1e30f)), fars(hn::Set(f8, -1e30f)) {}
+  HWY_INLINE void add(M8 crossed, V8 near, V8 far) {
+    nears = hn::Min(nears, hn::IfThenElse(crossed, near, nears));
+    fars = hn::Max(fars, hn::IfThenElse(crossed, far, fars));
+  }
+  HWY_INLINE float near() const { return hn::GetLane(hn::MinOfLanes(f8, nears)); }
+  HWY_INLINE float far() const { return hn::GetLane(hn::MaxOfLanes(f8, fars)); }
 };
 
 // Calls leaf(entry) for the nodes of level 0 (`leaf_level` 0) or the items (-1) whose box the ray crosses, about front to
@@ -111,20 +139,38 @@ HWY_INLINE void walk_pyramid(const scene::Pyramid& pyramid, const FlatRay& ray, 
   }
 }
 
-// Where between near and far the ray crosses the boxes of a level 0 node's items; false: nowhere. How the walk came to the node
+// Narrows an entry of level 0 to where the ray crosses the boxes of its items; false: nowhere. How the walk came to the node
 // makes no difference.
 HWY_INLINE bool narrow(const scene::Pyramid& pyramid, const FlatRay& ray, PyramidEntry& entry) {
-  PyramidCrossing crossing;
-  std::uint32_t hits = crossing.cross(pyramid, ray, entry, entry.far);
-  if (hits == 0) return false;
-  entry.near = 1e30f;
-  entry.far = -1e30f;
-  for (; hits != 0; hits &= hits - 1) {
-    const auto child = static_cast<std::size_t>(std::countr_zero(hits));
-    entry.near = std::min(entry.near, crossing.nears[child]);
-    entry.far = std::max(entry.far, crossing.fars[child]);
-  }
-  return true;
+  Stretch all;
+  each_child(pyramid, ray, entry, entry.far,
+             [&](std::size_t, const ChildLanes& lanes) HWY_ATTR { all.add(lanes.crossed, lanes.near, lanes.far); });
+  entry.near = all.near();
+  entry.far = all.far();
+  return entry.near <= entry.far;
+}
+
+// The same over land, and between which distances the ray may meet the ground there (near > far: nowhere).
+HWY_INLINE bool narrow_land(const scene::LandGrid& land, const FlatRay& ray, PyramidEntry& entry, float& ground_near,
+                            float& ground_far) {
+  const std::uint8_t* const canopy =
+      land.canopy.data() +
+      16 * (static_cast<std::size_t>(entry.row) * static_cast<std::size_t>(land.pyramid.levels.front().columns) +
+            static_cast<std::size_t>(entry.column));
+  Stretch all, ground;
+  each_child(land.pyramid, ray, entry, entry.far, [&](std::size_t k, const ChildLanes& lanes) HWY_ATTR {
+    all.add(lanes.crossed, lanes.near, lanes.far);
+    const V8 top = hn::Sub(lanes.high, hn::Mul(floats_of(canopy + k), hn::Set(f8, scene::LandGrid::canopy_step_m)));
+    const V8 to_top = hn::Mul(top, lanes.iz);
+    const V8 near = hn::Max(lanes.comes, hn::Min(lanes.to_low, to_top)),
+             far = hn::Min(lanes.goes, hn::Max(lanes.to_low, to_top));
+    ground.add(hn::And(lanes.crossed, hn::Le(near, far)), near, far);
+  });
+  entry.near = all.near();
+  entry.far = all.far();
+  ground_near = ground.near();
+  ground_far = ground.far();
+  return entry.near <= entry.far;
 }
 
 // Down to the nodes of level 0.

@@ -21,13 +21,14 @@ struct LandWalk {
 
   HWY_INLINE bool operator()(int node_column, int node_row) {
     PyramidEntry entry = plants.whole_ray(node_column, node_row);
-    if (!narrow(scene.land.pyramid, plants.flat, entry)) return false;
+    float ground_near = 0, ground_far = 0;
+    if (!narrow_land(scene.land, plants.flat, entry, ground_near, ground_far)) return false;
     const int column = node_column + scene.land.first_column, row = node_row + scene.land.first_row;
     if (has_plants && column >= 0 && row >= 0 && column < plants.layer.columns && row < plants.layer.rows &&
         plants.meet_tile(column, row, entry))
       return found = true;
-    const auto most = static_cast<float>(std::min(plants.best, static_cast<double>(entry.far)));
-    if (entry.near <= most && nearest_ground(scene, plants.flat, plants.ray, entry.near, most, plants.best)) {
+    const auto most = static_cast<float>(std::min(plants.best, static_cast<double>(ground_far)));
+    if (ground_near <= most && nearest_ground(scene, plants.flat, plants.ray, ground_near, most, plants.best)) {
       plants.hit.surface = Surface::ground;
       found = true;
     }

@@ -52,6 +52,7 @@ HWY_INLINE float inverse(float x) { return std::abs(x) < 1e-18f ? (x < 0 ? -1e18
 // A ray in floats of world space, for boxes only: all that hits something is decided nearer to it.
 struct FlatRay {
   float ox, oy, oz, dx, dy, dz, ix, iy, iz;
+  float ahead_x, ahead_y, per_run;  // its way over the ground, of unit length; metres of ray a metre of that
   FlatRay() = default;
   explicit FlatRay(const Ray& ray)
       : ox(static_cast<float>(ray.origin.x)),
@@ -62,7 +63,12 @@ struct FlatRay {
         dz(ray.direction.z),
         ix(inverse(dx)),
         iy(inverse(dy)),
-        iz(inverse(dz)) {}
+        iz(inverse(dz)) {
+    const float run = std::sqrt(dx * dx + dy * dy);
+    per_run = 1.0f / std::max(run, 1e-9f);
+    ahead_x = run > 1e-9f ? dx * per_run : 1.0f;
+    ahead_y = run > 1e-9f ? dy * per_run : 0.0f;
+  }
 };
 
 // What waits on a stack: a distance beyond the walk's begin and what is there, in one number that sorts by the distance (the

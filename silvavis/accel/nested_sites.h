@@ -107,9 +107,16 @@ struct LayerWalk {
       while (hits != 0) {
         const auto child = static_cast<std::uint32_t>(std::countr_zero(hits));
         hits &= hits - 1;
+        if (node.above_leaves) prefetch_leaf(position, node.first + child);
         insert(stack, size, bottom, waiting(nears[child], node.first + child, node.above_leaves));
       }
     }
+  }
+
+  HWY_INLINE void prefetch_leaf(std::size_t position, std::uint32_t leaf) const {
+    const std::size_t slot = layer.first_slot[position] + static_cast<std::size_t>(leaf) * 16;
+    hwy::Prefetch(layer.plant_species.data() + slot);
+    hwy::Prefetch(layer.plant_heights.data() + slot);
   }
 
   // Sixteen sites: the circle that each plant can reach, and the heights between which it can stand.
@@ -118,24 +125,23 @@ struct LayerWalk {
     const std::size_t slot0 = static_cast<std::size_t>(leaf) * 16;
     const std::uint8_t* const species = layer.plant_species.data() + layer.first_slot[position] + slot0;
     const std::uint16_t* const heights = layer.plant_heights.data() + layer.first_slot[position] + slot0;
-    const float run = std::sqrt(flat.dx * flat.dx + flat.dy * flat.dy);
-    const float per_run = 1.0f / std::max(run, 1e-9f);
-    const float hx = run > 1e-9f ? flat.dx * per_run : 1.0f, hy = run > 1e-9f ? flat.dy * per_run : 0.0f;
     constexpr float slack_m = 0.02f;
     HWY_ALIGN float nears[16];
+    HWY_ALIGN float besides[16];
+    HWY_ALIGN float lows[16];
     std::uint32_t hits = 0;
     const V8 zero = hn::Zero(f8), least = hn::Set(f8, r.least), most = hn::Set(f8, limit(r));
     for (std::size_t k = 0; k < 16; k += hn::Lanes(f8)) {
       const V8 px = hn::Sub(hn::LoadU(f8, tile.x_m.data() + slot0 + k), hn::Set(f8, r.x));
       const V8 py = hn::Sub(hn::LoadU(f8, tile.y_m.data() + slot0 + k), hn::Set(f8, r.y));
       const V8 reach = hn::LoadU(f8, tile.reach_m.data() + slot0 + k);
-      const V8 along = hn::Add(hn::Mul(px, hn::Set(f8, hx)), hn::Mul(py, hn::Set(f8, hy)));
-      const V8 beside = hn::Sub(hn::Mul(px, hn::Set(f8, hy)), hn::Mul(py, hn::Set(f8, hx)));
+      const V8 along = hn::Add(hn::Mul(px, hn::Set(f8, flat.ahead_x)), hn::Mul(py, hn::Set(f8, flat.ahead_y)));
+      const V8 beside = hn::Sub(hn::Mul(px, hn::Set(f8, flat.ahead_y)), hn::Mul(py, hn::Set(f8, flat.ahead_x)));
       const V8 square = hn::Sub(hn::Mul(reach, reach), hn::Mul(beside, beside));
       auto crossed = hn::And(hn::Ge(square, zero), hn::Gt(reach, zero));
       const V8 chord = hn::Sqrt(hn::Max(square, zero));
-      const V8 near = hn::Max(hn::Mul(hn::Sub(along, chord), hn::Set(f8, per_run)), least);
-      const V8 far = hn::Min(hn::Mul(hn::Add(along, chord), hn::Set(f8, per_run)), most);
+      const V8 near = hn::Max(hn::Mul(hn::Sub(along, chord), hn::Set(f8, flat.per_run)), least);
+      const V8 far = hn::Min(hn::Mul(hn::Add(along, chord), hn::Set(f8, flat.per_run)), most);
       crossed = hn::And(crossed, hn::Le(near, far));
       const V8 z_in = hn::Add(hn::Set(f8, r.z), hn::Mul(hn::Set(f8, flat.dz), near));
       const V8 z_out = hn::Add(hn::Set(f8, r.z), hn::Mul(hn::Set(f8, flat.dz), far));
@@ -144,9 +150,12 @@ struct LayerWalk {
       const V8 radius = hn::LoadU(f8, tile.radius_m.data() + slot0 + k);
       const V8 tip = hn::Add(foot, hn::Add(hn::Mul(radius, hn::Set(f8, layer.most_height)), hn::Set(f8, slack_m)));
       const V8 root = hn::Add(foot, hn::Sub(hn::Mul(radius, hn::Set(f8, layer.least_height)), hn::Set(f8, slack_m)));
-      crossed = hn::And(crossed, hn::Le(hn::Min(z_in, z_out), tip));
+      const V8 lowest = hn::Min(z_in, z_out);
+      crossed = hn::And(crossed, hn::Le(lowest, tip));
       crossed = hn::And(crossed, hn::Ge(hn::Max(z_in, z_out), root));
       hn::Store(near, f8, nears + k);
+      hn::Store(hn::Abs(beside), f8, besides + k);
+      hn::Store(hn::Sub(lowest, foot), f8, lows + k);
       hits |= bits_of(f8, crossed) << k;
     }
     // The nearest first.
@@ -156,6 +165,11 @@ struct LayerWalk {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(hits));
       hits &= hits - 1;
       if (species[lane] == scene::no_species) continue;
+      // Most species are smaller than the layer's tallest and widest.
+      const scene::SpeciesModels& kind = layer.species[species[lane]];
+      const float radius = tile.radius_m[slot0 + lane];
+      if (besides[lane] > radius * kind.most_reach + slack_m || lows[lane] > radius * kind.most_height + slack_m)
+        continue;
       int at = count++;
       for (; at > 0 && nears[order[at - 1]] > nears[lane]; --at) order[at] = order[at - 1];
       order[at] = lane;

@@ -27,11 +27,13 @@ void add_species(Scene& scene, PlantLayer& layer, const ecosystem::Species& spec
   entry.model_radius_m = species.model_radius_m;
   entry.colour = species.colour;
   for (const auto& model : models) {
-    layer.most_reach = std::max(layer.most_reach, model->reach_m / species.model_radius_m * 1.001f);
-    layer.most_height = std::max(layer.most_height, model->most.z / species.model_radius_m);
+    entry.most_reach = std::max(entry.most_reach, model->reach_m / species.model_radius_m * 1.001f);
+    entry.most_height = std::max(entry.most_height, model->most.z / species.model_radius_m);
     layer.least_height = std::min(layer.least_height, model->least.z / species.model_radius_m);
     scene.models.push_back(model);
   }
+  layer.most_reach = std::max(layer.most_reach, entry.most_reach);
+  layer.most_height = std::max(layer.most_height, entry.most_height);
   layer.species.push_back(std::move(entry));
 }
 
@@ -207,11 +209,17 @@ void make_land(Scene& scene) {
     whole.most_m = std::max(whole.most_m, layer->pyramid.origin_m + 65535 * layer->pyramid.step_m);
   }
   const double quarter = side / quarters;
+  land.canopy.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows) * quarters * quarters, 0);
   land.pyramid = make_pyramid(columns * quarters, rows * quarters, whole, [&](int i, int j) {
     const int column = i + land.first_column * quarters, row = j + land.first_row * quarters;
     const HeightRange bare = ground_range(ground, west + column * quarter, south + row * quarter, quarter, quarter);
     const HeightRange grown = layer ? plant_range(layer->pyramid, column, row) : HeightRange{};
     if (grown.least_m > grown.most_m) return bare;
+    const std::size_t node = static_cast<std::size_t>(j / quarters) * static_cast<std::size_t>(columns) +
+                             static_cast<std::size_t>(i / quarters);
+    land.canopy[node * quarters * quarters + static_cast<std::size_t>(j % quarters * quarters + i % quarters)] =
+        static_cast<std::uint8_t>(
+            std::clamp(std::floor((grown.most_m - bare.most_m) / LandGrid::canopy_step_m), 0.0f, 255.0f));
     return HeightRange{std::min(bare.least_m, grown.least_m), std::max(bare.most_m, grown.most_m)};
   });
   land.pyramid.west = static_cast<float>(west + land.first_column * side);
@@ -235,7 +243,7 @@ const std::array<Turn, 256>& turns() {
 }
 
 std::size_t Scene::plant_bytes() const {
-  std::size_t sum = land.pyramid.bytes();
+  std::size_t sum = land.pyramid.bytes() + land.canopy.size();
   for (const PlantLayer& layer : layers) {
     sum += layer.plant_species.size() + 2 * layer.plant_heights.size() + layer.pyramid.bytes();
     sum += layer.tiles.size() * (2 + 8 + 4 + 4);

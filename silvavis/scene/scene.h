@@ -44,6 +44,8 @@ struct SpeciesModels {
   std::uint32_t first_model = 0;
   std::uint32_t variants = 1;  // 0: not drawn
   float model_radius_m = 1;    // a plant's scale is its site's radius / model_radius_m
+  float most_reach = 0;        // as of the layer below, of these models alone
+  float most_height = 0;
   std::uint32_t colour = 0x808080;
 };
 
@@ -85,6 +87,9 @@ struct LandGrid {
   int first_column = 0,
       first_row = 0;  // tile position of the pyramid's first node of level 0; may lie outside the tiling
   Pyramid pyramid;    // over quarters of tile positions, so that a tile position is a node of level 0
+  // By item, sixteen a node of level 0: how far at least the ground lies below the item's highest tip.
+  static constexpr float canopy_step_m = 0.5f;
+  std::vector<std::uint8_t> canopy;
 };
 
 struct Scene {
