@@ -53,6 +53,7 @@ void add_stage(CLI::App& command, StageOptions& o) {
       ->expected(2);
   command.add_option("--visibility", o.visibility_km, "How far one sees through the haze, in km (default: 60)")
       ->check(CLI::Range(1.0, 300.0));
+  command.add_flag("!--no-surroundings", o.surroundings, "Nothing but a plain around the scene");
   LandOptions& land = o.land;
   command.add_option("--drape", land.drape,
                      "Picture that lies on the land; without a georeference over the whole scene");
@@ -86,6 +87,10 @@ CLI::Option* add_picture(CLI::App* command, RenderOptions& o) {
       ->check(CLI::Range(0.0, 1.0));
   command->add_option("--sky-rays", o.sky_rays, "Rays to the sky a sample; 0: the sky casts no shadow (default: 1)")
       ->check(CLI::Range(0, 256));
+  command
+      ->add_option("--haze", o.haze,
+                   "Share of the air's haze before the scene, 0 to 1 (default: 1, less from outside the scene)")
+      ->check(CLI::Range(0.0, 1.0));
   command->add_flag("!--no-shadows", o.shadows, "The sun casts no shadow");
   command->add_option("--exposure", o.exposure_stops,
                       "Stops by which the picture is lightened (default: by its brightness)");

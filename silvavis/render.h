@@ -19,11 +19,14 @@
 
 namespace silvavis {
 
+// The sky twice: as the eye sees it, and as it shines on the land, which may lie kilometres below the eye and half the air with it.
 struct Light {
   shade::Sky sky;
   shade::Haze haze;
+  shade::Sky over_land;
 
-  explicit Light(const shade::SkyOptions& options) : sky(options), haze(sky) {}
+  explicit Light(const shade::SkyOptions& options, const shade::HazeOptions& haze_options = {})
+      : sky(options), haze(sky, haze_options), over_land(shade::at_land(options)) {}
 };
 
 struct RenderOptions {

@@ -38,7 +38,7 @@ float fresnel_of_water(float cosine) {
 }
 
 // Where a shadow ray may begin: off the surface by what rounding needs.
-double lift(const accel::Hit& hit) { return 2e-3 + 1e-6 * hit.distance; }
+double lift(double distance_m) { return 2e-3 + 1e-6 * distance_m; }
 
 }  // namespace
 
@@ -56,9 +56,12 @@ Sampler::Sampler(const scene::Scene& scene, const accel::Tracer& tracer, const L
                  const RenderOptions& options, const shade::Lens& lens, image::Frame* channels)
     : scene_(scene), tracer_(tracer), light_(light), land_(land), options_(options), lens_(lens), channels_(channels) {
   // What a surface sees where its way to the sky is barred: leaves and ground in half shade.
-  const Rgb lit = light.sky.sun_irradiance() * std::max(light.sky.sun_direction().z, 0.0f) + light.sky.sky_irradiance();
+  const shade::Sky& sky = light.over_land;
+  const Rgb lit = sky.sun_irradiance() * std::max(sky.sun_direction().z, 0.0f) + sky.sky_irradiance();
   surroundings_ = lit * Rgb(0.045f, 0.070f, 0.025f) * (0.35f / std::numbers::pi_v<float>);
   eye_height_ = static_cast<float>(std::max(0.0, lens.eye.z - static_cast<double>(scene.ground.pyramid.origin_m)));
+  constexpr auto earth_m = static_cast<float>(shade::Atmosphere::ground_radius_m);
+  horizon_m_ = std::sqrt(2 * earth_m * std::max(eye_height_, 2.0f));
 }
 
 void Sampler::add(std::span<Pixel> pixels, std::span<const std::size_t> open, int count) {
@@ -75,15 +78,30 @@ void Sampler::add(std::span<Pixel> pixels, std::span<const std::size_t> open, in
   for (std::size_t i = 0; i < samples_.size(); ++i) rays_[i] = samples_[i].ray;
   tracer_.nearest(rays_, hits_);
   statistics.eye_rays += rays_.size();
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
-    samples_[i].hit = hits_[i];
-    if (hits_[i].surface != accel::Surface::none)
-      samples_[i].point = shade::surface_at(scene_, land_, rays_[i], hits_[i]);
-  }
+  for (std::size_t i = 0; i < samples_.size(); ++i) meet(samples_[i], hits_[i]);
   mirror_water();
   add_sun();
   add_sky();
   for (const Sample& sample : samples_) finish(sample, pixels[sample.pixel]);
+}
+
+void Sampler::meet(Sample& sample, const accel::Hit& hit) const {
+  sample.hit = hit;
+  sample.distance_m = hit.distance;
+  shade::Surroundings::Point around;
+  if (land_.around.meet(scene_.ground, sample.ray, hit.distance, around)) {
+    sample.hit = {};
+    sample.lit = true;
+    constexpr double shadows_reach_m = 300;
+    sample.in_shade = around.outside_m < shadows_reach_m;
+    sample.distance_m = around.distance_m;
+    sample.point.at = around.at;
+    sample.point.normal = sample.point.plane = around.normal;
+    sample.point.reflectance = around.reflectance;
+  } else if (hit.surface != accel::Surface::none) {
+    sample.lit = sample.in_shade = true;
+    sample.point = shade::surface_at(scene_, land_, sample.ray, hit);
+  }
 }
 
 Sampler::Sample Sampler::sample_of(const Pixel& pixel, int number) const {
@@ -112,7 +130,7 @@ Sampler::Sample Sampler::sample_of(const Pixel& pixel, int number) const {
 
 // What leaves a surface is as wide as the ray that came: both then meet the same level.
 float Sampler::width_at(const Sample& sample) const {
-  return sample.ray.spread * static_cast<float>(sample.hit.distance);
+  return sample.ray.spread * static_cast<float>(sample.distance_m);
 }
 
 // Water shows what it mirrors: the sky, or dark trees at its far shore.
@@ -120,7 +138,7 @@ void Sampler::mirror_water() {
   rays_.clear();
   askers_.clear();
   for (std::size_t i = 0; i < samples_.size(); ++i) {
-    if (samples_[i].hit.surface == accel::Surface::none || !samples_[i].point.water) continue;
+    if (!samples_[i].point.water) continue;
     const V3 in = samples_[i].ray.direction;
     // Ripples: a slight tilt, other for each sample.
     const V3 normal = V3((samples_[i].draws[2] - 0.5f) * 0.03f, (samples_[i].draws[3] - 0.5f) * 0.03f, 1).normalized();
@@ -140,11 +158,12 @@ void Sampler::mirror_water() {
   statistics.eye_rays += rays_.size();
   for (std::size_t k = 0; k < rays_.size(); ++k) {
     Sample& sample = samples_[askers_[k]];
-    Rgb seen = light_.sky.radiance(rays_[k].direction);
+    Rgb seen = light_.over_land.radiance(rays_[k].direction);
     if (hits_[k].surface != accel::Surface::none) {
       const shade::SurfacePoint far = shade::surface_at(scene_, land_, rays_[k], hits_[k]);
-      const float sunny = std::max(0.0f, far.normal.dot(light_.sky.sun_direction()));
-      seen = far.reflectance * (light_.sky.sun_irradiance() * (0.6f * sunny) + light_.sky.sky_irradiance() * 0.5f) /
+      const float sunny = std::max(0.0f, far.normal.dot(light_.over_land.sun_direction()));
+      seen = far.reflectance *
+             (light_.over_land.sun_irradiance() * (0.6f * sunny) + light_.over_land.sky_irradiance() * 0.5f) /
              std::numbers::pi_v<float>;
     }
     sample.light += seen * fresnel_of_water(-sample.ray.direction.z);
@@ -152,17 +171,22 @@ void Sampler::mirror_water() {
 }
 
 void Sampler::add_sun() {
-  const V3 sun = light_.sky.sun_direction();
-  if (luminance(light_.sky.sun_irradiance()) <= 0) return;
+  const V3 sun = light_.over_land.sun_direction();
+  if (luminance(light_.over_land.sun_irradiance()) <= 0) return;
   rays_.clear();
   askers_.clear();
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const Sample& sample = samples_[i];
-    if (sample.hit.surface == accel::Surface::none) continue;
+    if (!sample.lit) continue;
     const float facing = sample.point.normal.dot(sun);
     if (facing <= 0 && luminance(sample.point.transmittance) <= 0) continue;
     accel::Ray ray;
-    if (!shade::ray_from(sample.point, sample.hit, sun, lift(sample.hit), ray) && options_.sun_shadows) continue;
+    if (!sample.in_shade) {
+      const float sunny = std::max(0.0f, facing) / std::numbers::pi_v<float>;
+      samples_[i].light += sample.point.reflectance * light_.over_land.sun_irradiance() * sunny;
+      continue;
+    }
+    if (!shade::ray_from(sample.point, sample.hit, sun, lift(sample.distance_m), ray) && options_.sun_shadows) continue;
     ray.width_m = width_at(sample);
     rays_.push_back(ray);
     askers_.push_back(i);
@@ -177,16 +201,16 @@ void Sampler::add_sun() {
     Sample& sample = samples_[askers_[k]];
     const float facing = sample.point.normal.dot(sun);
     const Rgb& share = facing > 0 ? sample.point.reflectance : sample.point.transmittance;
-    sample.light += share * light_.sky.sun_irradiance() * (std::abs(facing) / std::numbers::pi_v<float>);
+    sample.light += share * light_.over_land.sun_irradiance() * (std::abs(facing) / std::numbers::pi_v<float>);
   }
 }
 
 void Sampler::add_sky() {
   if (options_.sky_rays == 0) {
     for (Sample& sample : samples_) {
-      if (sample.hit.surface == accel::Surface::none) continue;
-      sample.light += (sample.point.reflectance * light_.sky.irradiance(sample.point.normal) +
-                       sample.point.transmittance * light_.sky.irradiance(-sample.point.normal)) *
+      if (!sample.lit) continue;
+      sample.light += (sample.point.reflectance * light_.over_land.irradiance(sample.point.normal) +
+                       sample.point.transmittance * light_.over_land.irradiance(-sample.point.normal)) *
                       (0.6f / std::numbers::pi_v<float>);
     }
     return;
@@ -197,7 +221,13 @@ void Sampler::add_sky() {
     shares_.clear();
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const Sample& sample = samples_[i];
-      if (sample.hit.surface == accel::Surface::none) continue;
+      if (!sample.in_shade) {
+        if (sample.lit && number == 0) {
+          samples_[i].light +=
+              sample.point.reflectance * light_.over_land.irradiance(sample.point.normal) / std::numbers::pi_v<float>;
+        }
+        continue;
+      }
       // Light from the one side or from the other, by how much each counts.
       const float front = luminance(sample.point.reflectance), back = luminance(sample.point.transmittance);
       if (front + back <= 0) continue;
@@ -212,7 +242,7 @@ void Sampler::add_sky() {
       const V3 skyward = cosine_weighted(through ? -sample.point.normal : sample.point.normal, u - std::floor(u),
                                          std::min(v, 0.999999f));
       accel::Ray ray;
-      if (!shade::ray_from(sample.point, sample.hit, skyward, lift(sample.hit), ray)) {
+      if (!shade::ray_from(sample.point, sample.hit, skyward, lift(sample.distance_m), ray)) {
         samples_[i].light += weight * surroundings_;
         continue;
       }
@@ -225,15 +255,24 @@ void Sampler::add_sky() {
     tracer_.occluded(rays_, shaded_);
     statistics.shadow_rays += rays_.size();
     for (std::size_t k = 0; k < rays_.size(); ++k)
-      samples_[askers_[k]].light += shares_[k] * (shaded_[k] ? surroundings_ : light_.sky.radiance(rays_[k].direction));
+      samples_[askers_[k]].light +=
+          shares_[k] * (shaded_[k] ? surroundings_ : light_.over_land.radiance(rays_[k].direction));
   }
 }
 
 void Sampler::finish(const Sample& sample, Pixel& pixel) {
-  const bool sky = sample.hit.surface == accel::Surface::none;
-  const Rgb seen =
-      sky ? light_.sky.radiance_with_disc(sample.ray.direction)
-          : light_.haze.apply(sample.light, static_cast<float>(sample.hit.distance), eye_height_, sample.ray.direction);
+  Rgb seen;
+  if (sample.lit) {
+    seen = light_.haze.apply(sample.light, static_cast<float>(sample.distance_m), eye_height_, sample.ray.direction);
+  } else {
+    seen = light_.sky.radiance_with_disc(sample.ray.direction);
+  }
+  if (sample.lit && sample.hit.surface == accel::Surface::none) {
+    // The land around ends in the sky's own ground, which the horizon is made of.
+    const auto far = static_cast<float>(sample.distance_m) / horizon_m_;
+    const float share = std::clamp(1.6f * far - 0.6f, 0.0f, 1.0f);
+    seen = seen * (1 - share) + light_.sky.radiance(sample.ray.direction) * share;
+  }
   pixel.sum += seen;
   const double tone = std::sqrt(std::max(0.0, static_cast<double>(luminance(seen))));
   pixel.tone += tone;

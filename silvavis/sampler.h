@@ -52,12 +52,16 @@ class Sampler {
     accel::Ray ray;
     accel::Hit hit;
     shade::SurfacePoint point;
+    bool lit = false;       // something is seen that light falls on: of the scene, or of the land around
+    bool in_shade = false;  // it may be: of the land around only what is near
+    double distance_m = 0;
     Rgb light{0, 0, 0};
     float draws[4] = {};
   };
 
   Sample sample_of(const Pixel& pixel, int number) const;
   float width_at(const Sample& sample) const;
+  void meet(Sample& sample, const accel::Hit& hit) const;
   void mirror_water();
   void add_sun();
   void add_sky();
@@ -72,7 +76,7 @@ class Sampler {
   const shade::Lens lens_;
   image::Frame* const channels_;
   Rgb surroundings_{0, 0, 0};
-  float eye_height_ = 0;
+  float eye_height_ = 0, horizon_m_ = 0;
   std::vector<Sample> samples_;
   std::vector<accel::Ray> rays_;
   std::vector<accel::Hit> hits_;

@@ -131,14 +131,14 @@ class Film {
     small.camera.height = std::max(1, static_cast<int>(std::lround(small.camera.height * shrink)));
     small.samples = 4;
     small.error = 0;
-    small.aovs = false;
+    small.aovs = true;
     std::vector<image::Image> seen;
     for (int i = 0; i < pictures; ++i) {
       const auto part = [&](std::string_view, double done) {
         silvasim::base::report(progress, "exposure", (i + done) / pictures);
         return true;
       };
-      seen.push_back(picture(small, flight_.duration_s() * (i + 0.5) / pictures, 1, part).colour);
+      seen.push_back(image::land_of(picture(small, flight_.duration_s() * (i + 0.5) / pictures, 1, part)));
     }
     return image::automatic_exposure(seen);
   }
@@ -154,7 +154,7 @@ class Film {
     settings.seed += static_cast<std::uint64_t>(number - 1);
     camera_ = settings.camera;
     stage_.sun = sun_.at(time_s / std::max(flight_.duration_s(), 1e-9));
-    set_light(stage_, options_.picture.stage, view.eye.z);
+    set_light(stage_, options_.picture.stage, view.eye.z, haze_for(options_.picture, stage_, view.eye));
     return silvavis::render(stage_.scene, *stage_.tracer, *stage_.light, stage_.land, settings, progress);
   }
 

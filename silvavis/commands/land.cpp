@@ -89,7 +89,8 @@ void fill(shade::Land& land, const Grid& grid, const scene::Scene& scene, const 
       if (!colour(column, row, light)) {
         const double x = land.drape_box.west + (column + 0.5) * land.drape_box.width() / grid.columns;
         const double y = land.drape_box.north - (row + 0.5) * land.drape_box.height() / grid.rows;
-        light = shade::land_colour(plain, x, y, scene::ground_normal(scene.ground, x, y));
+        light = shade::land_colour(plain, x, y, scene::ground_normal(scene.ground, x, y),
+                                   scene::ground_at(scene.ground, x, y).height_m);
       }
       std::copy_n(&light.x, 3, land.drape.at(column, row));
     }

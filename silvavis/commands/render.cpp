@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "silvasim/base/error.h"
@@ -11,6 +12,7 @@
 #include "silvasim/base/parallel.h"
 #include "silvavis/commands/cameras.h"
 #include "silvavis/image/file.h"
+#include "silvavis/image/tone.h"
 
 namespace silvavis::commands {
 
@@ -44,6 +46,45 @@ shade::Camera camera_for(const RenderOptions& options, const scene::Scene& scene
   camera.look_at = world_point(scene, options.look_at, "--look-at");
   camera.fov_deg = options.fov_deg;
   return camera;
+}
+
+shade::HazeOptions haze_for(const RenderOptions& options, const Stage& stage, const V3d& eye) {
+  const shade::SceneBox box = scene_box(stage.scene);
+  const silvasim::base::Box& ground = box.ground;
+  shade::HazeOptions haze;
+  for (int corner = 0; corner < 4; ++corner) {
+    const V3d at(corner & 1 ? ground.east : ground.west, corner & 2 ? ground.north : ground.south, box.least_z_m);
+    haze.clear_m = std::max(haze.clear_m, static_cast<float>((at - eye).length()));
+  }
+  if (options.haze) {
+    haze.share = static_cast<float>(*options.haze);
+    return haze;
+  }
+  // From outside the scene is a plan of the land and not what a traveller sees: as much haze as leaves its middle its colours.
+  constexpr double most_taken = 0.025, none_within = 0.15, all_from = 0.4;  // the last two in sides of the scene
+  const V3d nearest(std::clamp(eye.x, ground.west, ground.east), std::clamp(eye.y, ground.south, ground.north),
+                    std::clamp(eye.z, box.least_z_m, box.greatest_z_m));
+  const double side = std::max(ground.width(), ground.height());
+  const double t = std::clamp(((eye - nearest).length() / side - none_within) / (all_from - none_within), 0.0, 1.0);
+  const V3d middle((ground.west + ground.east) / 2, (ground.south + ground.north) / 2, box.least_z_m);
+  const double depth =
+      shade::haze_depth(options.stage.visibility_km, std::max(0.0, eye.z - box.least_z_m), 0, (eye - middle).length());
+  const double clear = std::min(1.0, -std::log(1 - most_taken) / std::max(depth, 1e-9));
+  haze.share = static_cast<float>(1 + (clear - 1) * t * t * (3 - 2 * t));
+  return haze;
+}
+
+double metered_exposure(const Stage& stage, silvavis::RenderOptions settings) {
+  constexpr int side_px = 64;
+  const double shrink =
+      std::min(1.0, static_cast<double>(side_px) / std::max(settings.camera.width, settings.camera.height));
+  settings.camera.width = std::max(1, static_cast<int>(std::lround(settings.camera.width * shrink)));
+  settings.camera.height = std::max(1, static_cast<int>(std::lround(settings.camera.height * shrink)));
+  settings.samples = 2;
+  settings.error = 0;
+  settings.aovs = true;
+  const image::Frame frame = silvavis::render(stage.scene, *stage.tracer, *stage.light, stage.land, settings);
+  return image::automatic_exposure(image::land_of(frame));
 }
 
 // What was asked for stays; empty channels are not written.
@@ -92,13 +133,14 @@ void render(const RenderOptions& options) {
 
   silvavis::RenderOptions settings = settings_of(options);
   settings.camera = camera_for(options, stage->scene);
-  set_light(*stage, options.stage, settings.camera.eye.z);
+  set_light(*stage, options.stage, settings.camera.eye.z, haze_for(options, *stage, settings.camera.eye));
   const auto begin = std::chrono::steady_clock::now();
   RenderStatistics statistics;
   image::Frame frame =
       silvavis::render(stage->scene, *stage->tracer, *stage->light, stage->land, settings, progress, &statistics);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   keep_asked(frame, options.aovs);
+  if (!write.exposure_stops) write.exposure_stops = metered_exposure(*stage, settings);
   write.metadata = metadata_of(*stage, settings.camera);
   const std::size_t models = stage->scene.models.size(), tracer_bytes = stage->tracer->bytes();
   // Writing needs memory too, and plants no longer do.

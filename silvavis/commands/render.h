@@ -20,6 +20,7 @@ struct RenderOptions {
   double error = 0.02;
   int sky_rays = 1;
   bool shadows = true;
+  std::optional<double> haze;  // share of the air before the scene; none: haze_for()
   std::optional<double> exposure_stops;
   std::vector<std::string> aovs;  // depth, normal, species, plant-id
   Path output;
@@ -29,6 +30,10 @@ void render(const RenderOptions& options);
 
 // What `fly` and `view` share with it: where from and how a picture is sampled, which channels are kept, and what is written beside its pixels.
 shade::Camera camera_for(const RenderOptions& options, const scene::Scene& scene);
+// As asked for; else all of the air, and less of it the farther outside of the scene the eye is.
+shade::HazeOptions haze_for(const RenderOptions& options, const Stage& stage, const V3d& eye);
+// Stops for what a camera sees, by the land and not by the sky: image::automatic_exposure() of a small picture.
+double metered_exposure(const Stage& stage, silvavis::RenderOptions settings);
 silvavis::RenderOptions settings_of(const RenderOptions& options);
 void keep_asked(image::Frame& frame, const std::vector<std::string>& aovs);
 std::map<std::string, std::string> metadata_of(const Stage& stage, const shade::Camera& camera);

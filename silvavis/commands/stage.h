@@ -33,6 +33,7 @@ struct StageOptions {
   std::string sun;                    // a moment; empty: 21 June, 10:00
   std::vector<double> sun_direction;  // azimuth, elevation in degrees; empty: from the moment and the place
   double visibility_km = 60;
+  bool surroundings = true;  // land around the scene; false: the bare plain
   LandOptions land;
   std::uint64_t seed = 1;
   Common common;
@@ -45,7 +46,8 @@ struct Stage {
   shade::Land land;
   shade::SunPosition sun;
   std::vector<std::vector<std::string>> model_sources;  // Flora::sources
-  Rgb albedo{0.08f, 0.11f, 0.05f};                      // of the scene as a whole, for the land around it
+  Rgb albedo{0.08f, 0.11f, 0.05f};                      // of the scene as a whole, for the sky above it
+  double land_height_m = 0;                             // mean height of the land above its lowest point
   // For the sun: where the scene's middle is, and how its grid is turned.
   double longitude_deg = 10, latitude_deg = 50, convergence_deg = 0;
   std::vector<std::string> warnings;
@@ -59,7 +61,7 @@ std::unique_ptr<Stage> set_stage(const StageOptions& options, const silvasim::ba
 
 // The light of `stage.sun` for an eye at that height above the sea: beyond the scene it sees the ground of a round earth, as
 // far below as the scene's lowest point. set_stage() makes the light for an eye on that ground.
-void set_light(Stage& stage, const StageOptions& options, double eye_z_m);
+void set_light(Stage& stage, const StageOptions& options, double eye_z_m, const shade::HazeOptions& haze = {});
 
 // Files that no output may replace.
 std::vector<Path> inputs_of(const StageOptions& options);

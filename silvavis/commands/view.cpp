@@ -59,8 +59,9 @@ class Session {
       moment_ = shade::parse_moment(sun.empty() ? default_sun : sun);
     }
     go_to(start_);
-    set_light(stage_, options_.picture.stage, settings_.camera.eye.z);
-    light_z_m_ = settings_.camera.eye.z;
+    set_light(stage_, options_.picture.stage, settings_.camera.eye.z,
+              haze_for(options_.picture, stage_, settings_.camera.eye));
+    light_eye_ = settings_.camera.eye;
     if (options.picture.exposure_stops) automatic_stops_ = *options.picture.exposure_stops;
   }
 
@@ -82,7 +83,7 @@ class Session {
       show_next(again);
       ++pictures;
       // Once more for an eye that rests elsewhere than the light was made for.
-      again = !again && light_z_m_ != settings_.camera.eye.z;
+      again = !again && wants_other_light();
       if (again) renew_light();
     }
   }
@@ -184,13 +185,21 @@ class Session {
   // The sky looks other from high above; while the eye moves, small differences can wait.
   void follow_height() {
     const double lowest_m = static_cast<double>(stage_.scene.ground.pyramid.origin_m);
-    const double now_m = settings_.camera.eye.z - lowest_m, light_m = light_z_m_ - lowest_m;
+    const double now_m = settings_.camera.eye.z - lowest_m, light_m = light_eye_.z - lowest_m;
     if (std::abs(now_m - light_m) > 100 + 0.25 * std::max(light_m, 0.0)) renew_light();
   }
 
+  bool wants_other_light() const {
+    const V3d& eye = settings_.camera.eye;
+    if (eye == light_eye_) return false;
+    const auto thinned = [&](const V3d& at) { return haze_for(options_.picture, stage_, at).share < 1; };
+    return eye.z != light_eye_.z || thinned(eye) || thinned(light_eye_);
+  }
+
   void renew_light() {
-    set_light(stage_, options_.picture.stage, settings_.camera.eye.z);
-    light_z_m_ = settings_.camera.eye.z;
+    set_light(stage_, options_.picture.stage, settings_.camera.eye.z,
+              haze_for(options_.picture, stage_, settings_.camera.eye));
+    light_eye_ = settings_.camera.eye;
   }
 
   void move_sun(double minutes) {
@@ -252,9 +261,10 @@ class Session {
   // The eye gets used to other light by and by; a finished picture has the exposure that `render` gives it.
   void expose() {
     if (options_.picture.exposure_stops) return;
-    const double wanted = image::automatic_exposure(as_sampled());
     const bool at_once = times_.pictures() == 0 || progressive_.finished();
-    automatic_stops_ = at_once ? wanted : automatic_stops_ + 0.2 * (wanted - automatic_stops_);
+    constexpr std::size_t every = 4;  // pictures: metering takes rays too
+    if (at_once || times_.pictures() % every == 0) wanted_stops_ = metered_exposure(stage_, settings_);
+    automatic_stops_ = at_once ? wanted_stops_ : automatic_stops_ + 0.2 * (wanted_stops_ - automatic_stops_);
   }
 
   std::string title(const PictureTimes& picture) const {
@@ -312,8 +322,8 @@ class Session {
   shade::Camera start_, shown_camera_;
   Pilot pilot_;
   std::optional<shade::Moment> moment_;
-  double light_z_m_ = 0;
-  double automatic_stops_ = 0, user_stops_ = 0;
+  V3d light_eye_{0, 0, 0};
+  double wanted_stops_ = 0, automatic_stops_ = 0, user_stops_ = 0;
   double overhead_s_ = 0.02;  // of tone mapping and showing
   bool changed_ = false;      // by a key: the picture must begin anew
   bool exposed_ = true;       // what is shown has the exposure that is asked for

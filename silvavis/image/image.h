@@ -35,6 +35,8 @@ struct Image {
   friend bool operator==(const Image&, const Image&) = default;
 };
 
+inline constexpr double cd_m2_per_unit = 39226;  // of a luminance of 1 (docs/light.md)
+
 inline constexpr std::uint16_t species_sky = 0xFFFF;     // nothing was hit
 inline constexpr std::uint16_t species_ground = 0xFFFE;  // the terrain
 inline constexpr std::uint16_t species_water = 0xFFFD;

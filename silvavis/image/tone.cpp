@@ -70,7 +70,7 @@ inline float power(float x, float exponent) {
 
 // AgX by itself is flat and pale. Most of its own "punchy" look (1.35 and 1.4) gives a sunlit landscape its contrast, and keeps what
 // stands in the shade to be seen.
-constexpr float contrast = 1.22f, saturation = 1.25f;
+constexpr float contrast = 1.26f, saturation = 1.15f;
 
 // Plain loops over columns, which become SIMD; NaN fails every comparison and so becomes 0.
 constexpr std::size_t block = 64;
@@ -107,15 +107,40 @@ double automatic_exposure(std::span<const Image> images) {
   if (std::all_of(histogram.begin(), histogram.end(), [](std::uint64_t pixels) { return pixels == 0; })) return 0;
   // The darkest twentieth is shadow and the brightest is sky or glitter: neither tells how bright the scene is.
   const double middle_stops = mean_stops(histogram, 0.05, 0.95);
-  // A little lighter than a grey card (0.18), at which pictures of woods look like dusk.
-  constexpr double quarter_stops = -2;  // log2 of 0.25
-  const double wanted = quarter_stops - middle_stops;
-  // By day a landscape of dark woods stays darker than that, by night it stays night.
-  constexpr double share_of_dark = 0.8, most_stops = 12, least_stops = -8;
-  return std::clamp(wanted > 0 ? share_of_dark * wanted : wanted, least_stops, most_stops);
+  // What eyes make of so much light: 1 by day, a fourteenth at the end of civil twilight.
+  const auto key = [](double cd_m2) {
+    constexpr double ln_10 = 2.302585092994046;
+    return 1.03 - 2 / (2 + base::log(cd_m2 + 1) / ln_10);
+  };
+  constexpr double day_cd_m2 = 2000;  // of land in the sun of noon
+  const double cd_m2 = cd_m2_per_unit * base::exp(middle_stops * static_cast<double>(ln_2));
+  const double adapted = std::min(1.0, key(cd_m2) / key(day_cd_m2));
+  // By day a little lighter than a grey card (0.18), at which pictures of woods look like dusk.
+  constexpr double shown = 0.25;
+  double wanted = base::log(shown * adapted) / static_cast<double>(ln_2) - middle_stops;
+  // Dark woods stay darker than meadows: by a fifth of what they are darker, up to what things of one light differ by.
+  constexpr double most_difference_stops = 3;
+  const double darker = base::log(shown) / static_cast<double>(ln_2) - middle_stops;
+  wanted -= 0.2 * std::clamp(darker, 0.0, most_difference_stops);
+  constexpr double most_stops = 14, least_stops = -8;  // by night it stays night
+  return std::clamp(wanted, least_stops, most_stops);
 }
 
 double automatic_exposure(const Image& image) { return automatic_exposure(std::span(&image, 1)); }
+
+Image land_of(const Frame& frame) {
+  constexpr std::size_t least_share = 50;  // a fiftieth of the picture
+  if (frame.depth.empty()) return frame.colour;
+  Image land;
+  for (std::size_t i = 0; i < frame.depth.pixels.size(); ++i) {
+    const float* pixel = &frame.colour.pixels[3 * i];
+    if (std::isfinite(frame.depth.pixels[i])) land.pixels.insert(land.pixels.end(), pixel, pixel + 3);
+  }
+  if (land.pixels.size() * least_share < frame.colour.pixels.size()) return frame.colour;
+  land.width = static_cast<int>(land.pixels.size() / 3);
+  land.height = 1;
+  return land;
+}
 
 Rgb tone_mapped(const Rgb& light, float scale) {
   Block one{};

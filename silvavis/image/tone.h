@@ -16,12 +16,15 @@
 namespace silvavis::image {
 
 // Stops that show the picture well: the mean of the logarithms of luminance, without the darkest and the brightest
-// pixels, becomes 0.25, a little lighter than a grey card; a picture whose middle is dark is lightened a little less than that, so that dusk stays
-// dusk. Black and empty pictures give 0.
+// pixels, becomes 0.25, a little lighter than a grey card, by day, dark woods a little less; the less light there is in cd/m2, the darker it stays, as for
+// eyes that do not wholly get used to it (Krawczyk, Myszkowski and Seidel 2005, equation 11). Black and empty pictures give 0.
 //
 // For a flight ask once, for one frame or several of them, and give the answer to every frame: then nothing flickers.
 double automatic_exposure(std::span<const Image> images);
 double automatic_exposure(const Image& image);
+
+// The pixels that do not show the sky, in a row; all where there are few others, or no depth to tell them by.
+Image land_of(const Frame& frame);
 
 // One colour, linear in and linear out, in [0, 1].
 Rgb tone_mapped(const Rgb& light, float scale);

@@ -57,7 +57,7 @@ Columns integrated(double radius_m, double cosine) {
   const double b = radius_m * cosine;
   const double length = -b + std::sqrt(std::max(0.0, b * b + top * top - radius_m * radius_m));
   constexpr int steps = 64;
-  double rayleigh = 0, mie = 0, ozone = 0;
+  double rayleigh = 0, mie = 0, ozone = 0, aloft = 0;
   for (int i = 0; i < steps; ++i) {
     const double s = (i + 0.5) / steps, t = length * s * s, dt = length * 2 * s / steps;
     const double height = std::sqrt(radius_m * radius_m + t * t + 2 * t * b) - Atmosphere::ground_radius_m;
@@ -65,8 +65,9 @@ Columns integrated(double radius_m, double cosine) {
     rayleigh += dt * static_cast<double>(density.rayleigh);
     mie += dt * static_cast<double>(density.mie);
     ozone += dt * static_cast<double>(density.ozone);
+    aloft += dt * static_cast<double>(density.aloft);
   }
-  return {static_cast<float>(rayleigh), static_cast<float>(mie), static_cast<float>(ozone)};
+  return {static_cast<float>(rayleigh), static_cast<float>(mie), static_cast<float>(ozone), static_cast<float>(aloft)};
 }
 
 // A ray that goes down first and passes the earth: both ways from its lowest point, less what lies behind the start.
@@ -74,11 +75,13 @@ Columns whole_path(double radius_m, double cosine) {
   if (cosine >= 0) return integrated(radius_m, cosine);
   const double lowest = std::max(Atmosphere::ground_radius_m, radius_m * std::sqrt(1 - cosine * cosine));
   const Columns half = integrated(lowest, 0), behind = integrated(radius_m, -cosine);
-  return {2 * half.rayleigh - behind.rayleigh, 2 * half.mie - behind.mie, 2 * half.ozone - behind.ozone};
+  return {2 * half.rayleigh - behind.rayleigh, 2 * half.mie - behind.mie, 2 * half.ozone - behind.ozone,
+          2 * half.aloft - behind.aloft};
 }
 
 Columns mixed(const Columns& a, const Columns& b, float t) {
-  return {a.rayleigh + (b.rayleigh - a.rayleigh) * t, a.mie + (b.mie - a.mie) * t, a.ozone + (b.ozone - a.ozone) * t};
+  return {a.rayleigh + (b.rayleigh - a.rayleigh) * t, a.mie + (b.mie - a.mie) * t, a.ozone + (b.ozone - a.ozone) * t,
+          a.aloft + (b.aloft - a.aloft) * t};
 }
 
 }  // namespace
@@ -112,8 +115,12 @@ double horizon_cosine(double height_m) {
 
 Columns Atmosphere::densities(float height_m) {
   const float h = std::max(0.0f, height_m);
+  // Aloft: what the wind mixes up to the tropopause, and the layer of quiet years above it.
+  const float stratosphere = std::clamp(std::min((h - 8e3f) / 3e3f, (28e3f - h) / 8e3f), 0.0f, 1.0f);
+  const float troposphere =
+      12 * std::clamp((h - 3.5e3f) / 1.5e3f, 0.0f, 1.0f) * base::exp(-std::max(0.0f, h - 5e3f) / 1950);
   return {base::exp(-h / static_cast<float>(rayleigh_height_m)), base::exp(-h / static_cast<float>(mie_height_m)),
-          std::max(0.0f, 1 - std::abs(h - 25e3f) / 15e3f)};
+          std::max(0.0f, 1 - std::abs(h - 25e3f) / 15e3f), stratosphere + troposphere};
 }
 
 Atmosphere::Atmosphere(double visibility_km) : sun_(extraterrestrial) {
@@ -129,6 +136,9 @@ Atmosphere::Atmosphere(double visibility_km) : sun_(extraterrestrial) {
   };
   // Koschmieder: a black thing is just seen where 2 % of its contrast is left, for the green light of 550 nm.
   const double mie_per_m = 3.912 / (visibility_km * 1000) - rayleigh_per_m(550);
+  // Between 11 and 20 km: the mean of LOWTRAN 7's profile; at 5 km 12 times that, between its winter
+  // and its summer (Kneizys et al. 1988).
+  constexpr double aloft_per_m = 4.8e-7;
   constexpr double angstrom = 1.3, scattered_share = 0.93;
   constexpr double ozone_molecules_m2 = 300 * 2.687e20, ozone_layer_m = 15e3;  // 300 Dobson units
   for (std::size_t i = 0; i < wavelengths; ++i) {
@@ -136,6 +146,7 @@ Atmosphere::Atmosphere(double visibility_km) : sun_(extraterrestrial) {
     const double mie = mie_per_m * power(nm / 550, -angstrom);
     rayleigh_[i] = static_cast<float>(rayleigh_per_m(nm));
     mie_[i] = static_cast<float>(mie);
+    aloft_[i] = static_cast<float>(aloft_per_m * power(nm / 550, -angstrom));
     mie_scattered_[i] = static_cast<float>(mie * scattered_share);
     ozone_[i] =
         static_cast<float>(static_cast<double>(ozone_cross_section[i]) * 1e-26 * ozone_molecules_m2 / ozone_layer_m);
@@ -190,7 +201,8 @@ float Atmosphere::share_of_sun(float height_m, float cosine) {
 Spectrum Atmosphere::transmittance(const Columns& columns) const {
   Spectrum result;
   for (std::size_t i = 0; i < wavelengths; ++i) {
-    result[i] = base::exp(-(rayleigh_[i] * columns.rayleigh + mie_[i] * columns.mie + ozone_[i] * columns.ozone));
+    result[i] = base::exp(-(rayleigh_[i] * columns.rayleigh + mie_[i] * columns.mie + ozone_[i] * columns.ozone +
+                            aloft_[i] * columns.aloft));
   }
   return result;
 }

@@ -27,6 +27,7 @@ Spectrum spectrum_of(const Rgb& albedo);
 // What a path goes through, as metres of the density at the ground.
 struct Columns {
   float rayleigh = 0, mie = 0, ozone = 0;
+  float aloft = 0;  // the fine haze above 3.5 km, whatever the visibility at the ground
 };
 
 // Scattered light over the sphere: integrates to 1. `cosine` of the angle between the light's way and the eye's.
@@ -54,6 +55,7 @@ class Atmosphere {
   const Spectrum& mie_scattered() const { return mie_scattered_; }
   const Spectrum& mie() const { return mie_; }  // scattered and absorbed
   const Spectrum& ozone() const { return ozone_; }
+  const Spectrum& aloft() const { return aloft_; }  // scattered alone, like haze
 
   static Columns densities(float height_m);
 
@@ -70,7 +72,7 @@ class Atmosphere {
  private:
   static constexpr std::size_t rows_ = 48, columns_ = 96;
 
-  Spectrum sun_, rayleigh_, mie_scattered_, mie_, ozone_;
+  Spectrum sun_, rayleigh_, mie_scattered_, mie_, ozone_, aloft_;
   std::vector<Columns> to_top_;  // rows_ heights, columns_ directions
 };
 

@@ -55,7 +55,7 @@ struct SceneBox {
 };
 
 struct FitOptions {
-  double down_deg = 35;    // how steeply it looks down, -89 to 90
+  double down_deg = 27;    // how steeply it looks down, -89 to 90
   double heading_deg = 0;  // where to: clockwise from north, so that 0 looks from the south
   double fov_deg = 50;
   double margin = 0.03;  // of the picture's width and height, free on each side

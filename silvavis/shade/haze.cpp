@@ -20,7 +20,19 @@ Rgb channel_means(const Spectrum& coefficient, const Spectrum& sun) {
 
 }  // namespace
 
-Haze::Haze(const Sky& sky) : sun_(sky.sun_direction()) {
+double haze_depth(double visibility_km, double from_height_m, double to_height_m, double distance_m) {
+  constexpr double molecules_per_m = 1.16e-5;
+  const double haze_per_m = std::max(0.0, 3.912 / (1000 * visibility_km) - molecules_per_m);  // Koschmieder
+  const auto mean_density = [&](double scale_m) {
+    const double from = from_height_m / scale_m, rise = (to_height_m - from_height_m) / scale_m;
+    const double mean = std::abs(rise) < 1e-4 ? 1 - rise / 2 : (1 - base::exp(-rise)) / rise;
+    return base::exp(-from) * mean;
+  };
+  return distance_m * (molecules_per_m * mean_density(Atmosphere::rayleigh_height_m) +
+                       haze_per_m * mean_density(Atmosphere::mie_height_m));
+}
+
+Haze::Haze(const Sky& sky, const HazeOptions& options) : sun_(sky.sun_direction()), options_(options) {
   const Atmosphere& air = sky.air();
   rayleigh_ = channel_means(air.rayleigh(), air.sun());
   mie_ = channel_means(air.mie(), air.sun());
@@ -55,7 +67,13 @@ Haze::Veil Haze::veil(float distance_m, float eye_height_m, const V3& d) const {
     const bool level_ray = r * r < 1e-4f;
     mean[n] = base::select(level_ray, series, (1 - density[n]) / base::select(level_ray, 1.0f, r));
   }
-  const float molecules = distance * density[2] * mean[0], droplets = distance * density[3] * mean[1];
+  float molecules = distance * density[2] * mean[0], droplets = distance * density[3] * mean[1];
+  if (options_.share < 1) {
+    const float t = std::clamp(0.5f * (distance / std::max(options_.clear_m, 1e-3f) - 1), 0.0f, 1.0f);
+    const float share = options_.share + (1 - options_.share) * t * t * (3 - 2 * t);
+    molecules *= share;
+    droplets *= share;
+  }
 
   // The mean height of the air on the way: of both ends, each by its density in green light.
   const float at_eye = rayleigh_.y * density[2] + mie_.y * density[3];

@@ -17,9 +17,19 @@
 
 namespace silvavis::shade {
 
+struct HazeOptions {
+  // A share of the air, for what is no farther than a distance: how pictures of wide land are freed of haze to show the land. At
+  // three times that distance the air is as thick as it is. 1: nowhere.
+  float share = 1;
+  float clear_m = 0;
+};
+
+// Depth of the air in green light (550 nm) between two heights above the ground that are `distance_m` apart.
+double haze_depth(double visibility_km, double from_height_m, double to_height_m, double distance_m);
+
 class Haze {
  public:
-  explicit Haze(const Sky& sky);
+  explicit Haze(const Sky& sky, const HazeOptions& options = {});
 
   // What is left of the colour of a thing at that distance, and the air's light before it.
   Rgb apply(const Rgb& colour, float distance_m, float eye_height_m, const V3& direction) const;
@@ -37,6 +47,7 @@ class Haze {
 
   Rgb rayleigh_, mie_;  // extinction per metre at the ground
   V3 sun_;
+  HazeOptions options_;
   float level_x_ = 0, level_y_ = 0;
   std::array<std::array<Node, around_>, Sky::air_levels> light_;
 };

@@ -3,62 +3,79 @@
 #include <algorithm>
 #include <cmath>
 
+#include "silvavis/shade/patches.h"
+
 namespace silvavis::shade {
 
 namespace {
 
-float noise_at(std::int32_t i, std::int32_t j) {
-  std::uint32_t h = static_cast<std::uint32_t>(i) * 0x9E3779B1u ^ static_cast<std::uint32_t>(j) * 0x85EBCA77u;
-  h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
-  h = (h ^ (h >> 12)) * 0x297A2D39u;
-  return static_cast<float>((h ^ (h >> 15)) >> 8) * 0x1p-24f;
-}
-
-// Smooth noise in [0,1] with features of about `size_m` (value noise, three octaves).
-float patches(double x, double y, double size_m) {
-  float sum = 0, weight = 0.5f;
-  for (int octave = 0; octave < 3; ++octave) {
-    const double u = x / size_m, v = y / size_m;
-    const double fu = std::floor(u), fv = std::floor(v);
-    const auto i = static_cast<std::int32_t>(fu), j = static_cast<std::int32_t>(fv);
-    auto s = static_cast<float>(u - fu), t = static_cast<float>(v - fv);
-    s = s * s * (3 - 2 * s);
-    t = t * t * (3 - 2 * t);
-    const float south = noise_at(i, j) * (1 - s) + noise_at(i + 1, j) * s;
-    const float north = noise_at(i, j + 1) * (1 - s) + noise_at(i + 1, j + 1) * s;
-    sum += weight * (south * (1 - t) + north * t);
-    weight *= 0.5f;
-    size_m *= 0.37;
-  }
-  return sum / 0.875f;
-}
-
 Rgb mixed(const Rgb& a, const Rgb& b, float share) { return a * (1 - share) + b * share; }
 
-// Grass where it is gentle, earth where it is steep, rock where it is steeper; none of it even.
-Rgb plain_look(double x, double y, const V3& up) {
-  const Rgb grass(0.058f, 0.082f, 0.030f), dry(0.130f, 0.118f, 0.060f), earth(0.115f, 0.085f, 0.058f),
-      rock(0.19f, 0.18f, 0.165f);
+float step_between(float from, float to, float x) {
+  const float t = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
+  return t * t * (3 - 2 * t);
+}
+
+// How light or dark the ground is within a step or two: stalks, twigs, stones. 1 on the mean.
+float grain(double x, double y) {
+  const float clumps = patches(x + 331, y - 57, 1.7), stalks = patches(x - 613, y + 91, 0.16);
+  return std::max(0.25f, 1 + 1.3f * (clumps - 0.5f) + 1.5f * (stalks - 0.5f));
+}
+
+// What lies under plants: litter, moss where it stays moist, bare humus at the feet of stems.
+Rgb floor_of_wood(float middling, float fine, float foot) {
+  const Rgb litter(0.086f, 0.062f, 0.037f), old_litter(0.050f, 0.038f, 0.024f), moss(0.038f, 0.056f, 0.018f),
+      herbs(0.036f, 0.066f, 0.020f);
+  Rgb colour = mixed(litter, old_litter, step_between(0.3f, 0.7f, fine));
+  colour = mixed(colour, moss, 0.8f * step_between(0.52f, 0.68f, middling));
+  colour = mixed(colour, herbs, 0.75f * step_between(0.46f, 0.30f, middling) * step_between(0.35f, 0.6f, fine));
+  return mixed(colour, moss * 0.8f, 0.6f * std::max(foot, 0.0f));
+}
+
+// Grass where it is gentle; earth, scree and rock where it is steep; less lush and stonier the higher it lies.
+Rgb plain_look(double x, double y, const V3& up, double height_m, const Crowns& crowns) {
+  const Rgb meadow(0.050f, 0.075f, 0.021f), pasture(0.076f, 0.088f, 0.034f), dry(0.132f, 0.118f, 0.058f),
+      turf(0.094f, 0.096f, 0.046f), earth(0.096f, 0.074f, 0.050f), scree(0.158f, 0.150f, 0.134f),
+      rock(0.172f, 0.168f, 0.158f);
   const float steepness = std::sqrt(std::max(0.0f, 1 - up.z * up.z)) / std::max(up.z, 0.05f);
-  const float wide = patches(x, y, 160), fine = patches(x + 7919, y - 104729, 9);
-  Rgb colour = mixed(grass, dry, std::clamp(1.9f * wide - 0.55f, 0.0f, 1.0f));
-  colour = mixed(colour, earth, std::clamp(1.6f * steepness - 0.35f + 0.5f * (fine - 0.5f), 0.0f, 0.8f));
-  colour = mixed(colour, rock, std::clamp((steepness - 0.75f) * 2.5f + 0.6f * (fine - 0.5f), 0.0f, 1.0f));
-  return colour * (0.72f + 0.56f * fine);
+  const float wide = patches(x, y, 160), middling = patches(x + 4211, y + 977, 24),
+              fine = patches(x + 7919, y - 104729, 5);
+  Rgb colour = mixed(meadow, pasture, step_between(0.35f, 0.65f, 0.6f * wide + 0.4f * middling));
+  // What the sun dries: southern slopes, and patches of them anywhere.
+  const float sunny = std::clamp(0.5f - 0.9f * up.y, 0.0f, 1.0f);
+  colour = mixed(colour, dry, 0.7f * step_between(0.62f, 0.85f, 0.45f * wide + 0.3f * middling + 0.45f * sunny));
+  // Between the highest meadows and what is bare, about the middle latitudes' 1500 to 2600 m.
+  const auto height = static_cast<float>(height_m) + 300 * (wide - 0.5f);
+  colour = mixed(colour, turf, step_between(1200, 2000, height));
+  // Between trees something grows.
+  const float open = 1 - 0.85f * crowns.near;
+  colour = mixed(colour, earth, 0.55f * open * step_between(0.40f, 0.75f, steepness + 0.5f * (fine - 0.5f)));
+  const float bare = step_between(2000, 2700, height) + 0.2f * step_between(1400, 2200, height);
+  colour = mixed(colour, scree,
+                 0.85f * open * step_between(0.55f, 1.0f, steepness + 0.6f * (middling - 0.5f) + 0.5f * bare));
+  colour = mixed(colour, rock, open * step_between(0.75f, 1.15f, steepness + 0.35f * (middling + fine - 1)));
+  colour *= 0.86f + 0.28f * fine;
+  return mixed(colour, floor_of_wood(middling, fine, crowns.foot), std::max(crowns.cover, 0.5f * crowns.near)) *
+         grain(x, y);
 }
 
 }  // namespace
 
-Rgb land_colour(const Land& land, double x, double y, const V3& up) {
+Rgb land_colour(const Land& land, double x, double y, const V3& up, double height_m, const Crowns& crowns) {
   const silvasim::base::Box& box = land.drape_box;
-  if (land.drape.empty() || !box.contains({x, y})) return plain_look(x, y, up);
+  if (land.drape.empty() || !box.contains({x, y})) return plain_look(x, y, up, height_m, crowns);
   const double u = (x - box.west) / box.width() * land.drape.width,
                v = (box.north - y) / box.height() * land.drape.height;
   const auto pixel = [&](int i, int j) {
     const float* at = land.drape.at(std::clamp(i, 0, land.drape.width - 1), std::clamp(j, 0, land.drape.height - 1));
     return Rgb(at[0], at[1], at[2]);
   };
-  if (!land.smooth) return pixel(static_cast<int>(u), static_cast<int>(v));
+  if (!land.smooth) {
+    // A class says what kind of ground, not that it is even.
+    const float uneven =
+        0.80f + 0.40f * (0.5f * patches(x + 4211, y + 977, 24) + 0.5f * patches(x + 7919, y - 104729, 5));
+    return pixel(static_cast<int>(u), static_cast<int>(v)) * (uneven * grain(x, y) * (1 - 0.35f * crowns.cover));
+  }
   const double left = std::floor(u - 0.5), top = std::floor(v - 0.5);
   const auto s = static_cast<float>(u - 0.5 - left), t = static_cast<float>(v - 0.5 - top);
   const int i = static_cast<int>(left), j = static_cast<int>(top);

@@ -36,8 +36,9 @@ Step step_of(const Atmosphere& air, float height_m) {
   Step step;
   for (std::size_t i = 0; i < wavelengths; ++i) {
     step.scattered_rayleigh[i] = air.rayleigh()[i] * density.rayleigh;
-    step.scattered_mie[i] = air.mie_scattered()[i] * density.mie;
-    step.mie[i] = air.mie()[i] * density.mie;
+    const float high = air.aloft()[i] * density.aloft;
+    step.scattered_mie[i] = air.mie_scattered()[i] * density.mie + high;
+    step.mie[i] = air.mie()[i] * density.mie + high;
     step.extinction[i] = step.scattered_rayleigh[i] + step.mie[i] + air.ozone()[i] * density.ozone;
   }
   return step;

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "silvavis/base/vector.h"
+#include "silvavis/image/image.h"
 #include "silvavis/shade/atmosphere.h"
 
 namespace silvavis::shade {
@@ -23,7 +24,9 @@ struct SkyOptions {
   V3 sun_direction{0, -0.5f, 0.8660254f};  // towards it, in the scene's frame; sun_direction() makes it
   double visibility_km = 60;               // 1 to 300; at the ground, by Koschmieder
   Rgb ground_albedo{0.08f, 0.11f, 0.05f};  // of the land all around
-  double eye_height_m = 2;                 // above that land
+  double eye_height_m = 2;                 // above the lowest of that land
+  double land_height_m =
+      2;  // at most the eye's: where the light falls on things (silvavis::Light); the mean of the land in view
 };
 
 // Light on its way to the eye in parts that vary slowly; the phase functions are put in when a direction is asked for.
@@ -31,11 +34,17 @@ struct SkyNode {
   Rgb rayleigh{0, 0, 0}, mie{0, 0, 0}, multiple{0, 0, 0};
 };
 
+// The same for an eye on the land.
+inline SkyOptions at_land(SkyOptions options) {
+  options.eye_height_m = options.land_height_m;
+  return options;
+}
+
 class MultipleScattering;
 
 class Sky {
  public:
-  static constexpr double cd_m2_per_unit = 39226;
+  static constexpr double cd_m2_per_unit = image::cd_m2_per_unit;
 
   explicit Sky(const SkyOptions& options);
 

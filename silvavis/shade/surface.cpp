@@ -54,7 +54,8 @@ SurfacePoint ground_point(const scene::Scene& scene, const Land& land, const acc
     point.normal = point.plane = V3(0, 0, 1);
     point.reflectance = Rgb(0.012f, 0.020f, 0.022f);  // what comes back from below the surface
   } else {
-    point.reflectance = land_colour(land, point.at.x, point.at.y, point.normal);
+    point.reflectance =
+        land_colour(land, point.at.x, point.at.y, point.normal, point.at.z, crowns_over(scene, point.at.x, point.at.y));
   }
   return point;
 }

@@ -112,7 +112,7 @@ TEST(Atmosphere, TheSunSetsOverItsWholeWidth) {
 
 TEST(Scattering, SingleScatteringIsThatOfAPlaneLayer) {
   // Nearly pure air, seen steeply: there a flat layer has a closed form (Chandrasekhar 1960). Ozone above takes from
-  // the sunlight first.
+  // the sunlight first; the haze aloft, in the middle, takes from all light once.
   const Atmosphere air(300);
   const double sun = std::sin(0.9), view = std::sin(1.2);
   const MultipleScattering none(air, sun, filled(0));
@@ -121,8 +121,9 @@ TEST(Scattering, SingleScatteringIsThatOfAPlaneLayer) {
     const double rayleigh = static_cast<double>(air.rayleigh()[i]) * 8400;
     const double depth = rayleigh + static_cast<double>(air.mie()[i]) * 1200;
     const double ozone = std::exp(-static_cast<double>(air.ozone()[i]) * 15000 / sun);
+    const double aloft = std::exp(-static_cast<double>(air.aloft()[i] * air.to_top(0, 1).aloft) * 2 / (sun + view));
     const double truth =
-        rayleigh / depth * ozone * sun / (sun - view) * (std::exp(-depth / sun) - std::exp(-depth / view));
+        rayleigh / depth * ozone * aloft * sun / (sun - view) * (std::exp(-depth / sun) - std::exp(-depth / view));
     EXPECT_NEAR(static_cast<double>(light.rayleigh[i]), truth, 0.03 * truth) << i;
   }
 }

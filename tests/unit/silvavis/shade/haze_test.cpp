@@ -73,6 +73,36 @@ TEST(Haze, TransmittanceIsThatOfASumAlongTheRay) {
   }
 }
 
+TEST(Haze, DepthInGreenLightIsThatOfTheVeil) {
+  const Haze haze(sky_of(40));
+  for (const double height : {10.0, 900.0, 6000.0}) {
+    const double distance = 3 * height + 500, sine = -height / distance;
+    const Haze::Veil veil =
+        haze.veil(static_cast<float>(distance), static_cast<float>(height), direction(20, std::asin(sine) / degree));
+    EXPECT_NEAR(std::exp(-haze_depth(60, height, 0, distance)), static_cast<double>(veil.transmittance.y), 0.012)
+        << height;
+  }
+}
+
+TEST(Haze, AShareOfTheAirTakesAShareOfTheDepthAndFarAwayAll) {
+  const Sky sky = sky_of(40);
+  const Haze whole(sky), part(sky, {0.25f, 5000}), none(sky, {0, 5000});
+  const V3 d = direction(50, -4);
+  const Rgb colour(0.1f, 0.2f, 0.3f);
+  EXPECT_EQ(none.apply(colour, 4000, 800, d), colour);
+  for (int c = 0; c < 3; ++c) {
+    const float all = whole.veil(4000, 800, d).transmittance[c], some = part.veil(4000, 800, d).transmittance[c];
+    EXPECT_NEAR(std::log(some), 0.25f * std::log(all), 1e-5f);
+    float before = 1;
+    for (float distance = 500; distance < 30000; distance += 250) {
+      const float now = part.veil(distance, 2200, d).transmittance[c];
+      EXPECT_LE(now, before + 1e-6f);  // what is farther is never clearer
+      before = now;
+    }
+    EXPECT_EQ(part.veil(15001, 2200, d).transmittance[c], whole.veil(15001, 2200, d).transmittance[c]);
+  }
+}
+
 TEST(Haze, TwoStretchesOfAWayAreTheWay) {
   const Haze haze(sky_of(30));
   for (const double elevation : {-8.0, -0.1, 0.0, 5.0}) {
