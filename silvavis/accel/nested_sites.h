@@ -67,11 +67,11 @@ struct LayerWalk {
   HWY_INLINE void walk_tile(const scene::TileSites& tile, std::size_t position, int column, int row, const TileRay& r) {
     std::uint64_t stack[8 * 15 + 1];
     int size = 0;
-    stack[size++] = waiting(0, 0, false);
+    stack[size++] = waiting(r.least, 0, false);
     while (size > 0) {
       const std::uint64_t entry = stack[--size];
       const float most = limit(r);
-      if (r.least + distance_of(entry) > most) continue;
+      if (distance_of(entry) > most) continue;
       if (is_leaf(entry)) {
         walk_leaf(tile, position, column, row, r, index_of(entry));
         if (any_hit && found) return;
@@ -93,7 +93,7 @@ struct LayerWalk {
                                        hn::Mul(hn::Sub(hn::LoadU(f8, y_out + k), oy), iy)),
                                hn::Set(f8, most));
         // Children without sites have their least above their most, so that near is beyond far.
-        hn::Store(hn::Sub(near, hn::Set(f8, r.least)), f8, nears + k);
+        hn::Store(near, f8, nears + k);
         hits |= bits_of(f8, hn::Le(near, far)) << k;
       }
       // The farthest is pushed first.
@@ -177,6 +177,8 @@ struct LayerWalk {
     const double size = 1.0 / static_cast<double>(plant.scale);
     ModelHit model_hit;
     model_hit.t = static_cast<float>(std::min((best - local.start) * size, 1e30));
+    // Not less than that in doubles, so that what is kept does not hang on which plant comes first.
+    model_hit.t += std::abs(model_hit.t) * 0x1p-22f;
     const auto least = static_cast<float>((ray.least - local.start) * size);
     if (!hit_model<any_hit>(model, local.origin, local.direction, least, model_hit)) return;
     const double distance = local.start + static_cast<double>(model_hit.t) * static_cast<double>(plant.scale);
