@@ -2,7 +2,14 @@
 //
 // The story of a ray: front to back over the land, in each tile position the tile's sites, for each plant whose hull the ray
 // crosses the model's tree, and then the ground beneath. The other layers follow, each with its own tiles.
+#include <cstddef>
+#include <new>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
 #include "silvavis/accel/nested.h"
+#include "silvavis/accel/nested_packet.h"
 #include "silvavis/accel/nested_sites.h"
 
 // No include guard: Highway includes it once for each target.
@@ -52,18 +59,159 @@ HWY_INLINE bool trace(const scene::Scene& scene, const Ray& ray, Hit& hit) {
   return hit.surface != Surface::none;
 }
 
-void trace_nearest(const scene::Scene& scene, std::span<const Ray> rays, std::span<Hit> hits) {
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    hits[i] = Hit{};
-    trace<false>(scene, rays[i], hits[i]);
+// A value a ray, made one by one.
+template <typename Value>
+class PerRay {
+ public:
+  template <typename... Parts>
+  HWY_INLINE void make(std::size_t i, Parts&&... parts) {
+    static_assert(std::is_trivially_destructible_v<Value>);
+    new (values() + i) Value{std::forward<Parts>(parts)...};
+  }
+  HWY_INLINE Value& operator[](std::size_t i) { return values()[i]; }
+  HWY_INLINE Value* values() { return reinterpret_cast<Value*>(bytes_); }
+
+ private:
+  alignas(Value) std::byte bytes_[packet_size * sizeof(Value)];
+};
+
+// The next node of level 0 on a ray's way, or none: a step of walk_pyramid().
+HWY_INLINE bool next_leaf(const scene::Pyramid& pyramid, const FlatRay& ray, PyramidStack& stack, const double& best,
+                          PyramidEntry& leaf) {
+  bool there = false;
+  const auto take = [&](const PyramidEntry& entry) HWY_ATTR {
+    leaf = entry;
+    return there = true;
+  };
+  walk_pyramid<0>(pyramid, ray, stack, best, take);
+  return there;
+}
+
+// How far apart rays that go about the same way are at a distance; none where they do not.
+struct Spread {
+  float apart_m = 0, angle = 0;
+  HWY_INLINE float at(float distance) const { return apart_m + angle * distance; }
+};
+HWY_INLINE std::optional<Spread> spread_of(const Ray* rays, std::size_t count) {
+  const Ray& first = rays[0];
+  float cosine = 1;
+  double apart = 0;
+  for (std::size_t i = 1; i < count; ++i) {
+    const Ray& ray = rays[i];
+    if ((ray.direction.x < 0) != (first.direction.x < 0) || (ray.direction.y < 0) != (first.direction.y < 0)) return {};
+    cosine = std::min(cosine, ray.direction.dot(first.direction));
+    const V3d between = ray.origin - first.origin;
+    apart = std::max({apart, std::abs(between.x), std::abs(between.y), std::abs(between.z)});
+  }
+  if (cosine < 0.9995f || apart > 1) return {};
+  return Spread{static_cast<float>(apart), std::sqrt(std::max(0.0f, 2 - 2 * cosine))};
+}
+
+// As trace() for up to sixteen rays: each goes its own way over the land, and those that come to the same tile position walk
+// through it together. False, and nothing is done, where they are too far apart by then.
+template <bool any_hit>
+bool trace_together(const scene::Scene& scene, const Ray* rays, std::size_t count, const Spread& spread, Hit* hits) {
+  constexpr float most_apart_m = 2;
+  const scene::Pyramid& land = scene.land.pyramid;
+  const float above_m = static_cast<float>(rays[0].origin.z) - (land.origin_m + 65535 * land.step_m);
+  if (spread.at(std::max(above_m, 0.0f)) > most_apart_m) return false;
+  static const scene::PlantLayer none;
+  PerRay<FlatRay> flats;
+  PerRay<LayerWalk<any_hit>> walks;
+  double best[packet_size];
+  PyramidStack stacks[packet_size];
+  PyramidEntry entries[packet_size];
+  for (std::size_t i = 0; i < count; ++i) {
+    flats.make(i, rays[i]);
+    best[i] = rays[i].most;
+  }
+  std::uint32_t open = (1u << count) - 1;
+  for (std::size_t k = 0; k < std::max<std::size_t>(scene.layers.size(), 1) && open != 0; ++k) {
+    const bool has_plants = !scene.layers.empty(), with_ground = k == 0;
+    const scene::PlantLayer& layer = has_plants ? scene.layers[k] : none;
+    const scene::Pyramid& pyramid = with_ground ? scene.land.pyramid : layer.pyramid;
+    for (std::size_t i = 0; i < count; ++i) {
+      walks.make(i, scene, layer, static_cast<std::uint8_t>(k), rays[i], flats[i],
+                 scene::ray_hash(rays[i].origin, rays[i].direction), best[i], hits[i], false);
+      stacks[i].size = 0;
+      stacks[i].push({static_cast<float>(rays[i].least), static_cast<float>(std::min(best[i], 1e30)),
+                      static_cast<std::int32_t>(pyramid.levels.size()) - 1, 0, 0});
+    }
+    PacketWalk<any_hit> together{scene, layer, walks.values()};
+    bool begins = k == 0;
+    for (std::uint32_t going = open; going != 0; begins = false) {
+      std::uint32_t arrived = 0;
+      for (std::uint32_t left = going; left != 0; left &= left - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(left));
+        bool there = false;
+        while (!there && next_leaf(pyramid, flats[i], stacks[i], best[i], entries[i]))
+          there = narrow(pyramid, flats[i], entries[i]);
+        (there ? arrived : going) ^= 1u << i;
+      }
+      if (begins && arrived != 0 && spread.at(entries[std::countr_zero(arrived)].near) > most_apart_m) return false;
+      const int first_column = with_ground ? scene.land.first_column : 0,
+                first_row = with_ground ? scene.land.first_row : 0;
+      for (std::uint32_t left = has_plants ? arrived : 0; left != 0;) {
+        const PyramidEntry& at = entries[std::countr_zero(left)];
+        std::uint32_t here = 0;
+        for (std::uint32_t others = left; others != 0; others &= others - 1) {
+          const auto i = static_cast<std::size_t>(std::countr_zero(others));
+          if (entries[i].column == at.column && entries[i].row == at.row) here |= 1u << i;
+        }
+        left ^= here;
+        const int column = at.column + first_column, row = at.row + first_row;
+        if (column >= 0 && row >= 0 && column < layer.columns && row < layer.rows)
+          together.meet_tile(column, row, here, entries);
+      }
+      for (std::uint32_t left = arrived; left != 0; left &= left - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(left));
+        if (with_ground && !(any_hit && walks[i].found)) {
+          const auto most = static_cast<float>(std::min(best[i], static_cast<double>(entries[i].far)));
+          if (entries[i].near <= most && nearest_ground(scene, flats[i], rays[i], entries[i].near, most, best[i])) {
+            hits[i].surface = Surface::ground;
+            walks[i].found = true;
+          }
+        }
+        if (any_hit && walks[i].found) {
+          going &= ~(1u << i);
+          open &= ~(1u << i);
+        }
+      }
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    if (hits[i].surface != Surface::none) hits[i].distance = best[i];
+  return true;
+}
+
+// Sixteen rays in a row together where they keep together, else one by one.
+template <bool any_hit>
+HWY_INLINE void trace_all(const scene::Scene& scene, std::span<const Ray> rays, Hit* hits) {
+  constexpr int wait = 7;  // packets that are not tried after one that was too wide
+  int waits = 0;
+  for (std::size_t i = 0; i < rays.size(); i += packet_size) {
+    const std::size_t count = std::min(packet_size, rays.size() - i);
+    for (std::size_t k = 0; k < count; ++k) hits[i + k] = Hit{};
+    if (--waits < 0 && count >= packet_size / 2) {
+      const auto spread = spread_of(&rays[i], count);
+      if (spread && trace_together<any_hit>(scene, &rays[i], count, *spread, hits + i)) continue;
+      waits = wait;
+    }
+    for (std::size_t k = 0; k < count; ++k) trace<any_hit>(scene, rays[i + k], hits[i + k]);
   }
 }
 
+void trace_nearest(const scene::Scene& scene, std::span<const Ray> rays, std::span<Hit> hits) {
+  trace_all<false>(scene, rays, hits.data());
+}
+
 void trace_occluded(const scene::Scene& scene, std::span<const Ray> rays, std::span<std::uint8_t> answers) {
-  Hit ignored;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    ignored.surface = Surface::none;
-    answers[i] = trace<true>(scene, rays[i], ignored) ? 1 : 0;
+  constexpr std::size_t batch = 16 * packet_size;
+  Hit ignored[batch];
+  for (std::size_t i = 0; i < rays.size(); i += batch) {
+    const std::size_t count = std::min(batch, rays.size() - i);
+    trace_all<true>(scene, rays.subspan(i, count), ignored);
+    for (std::size_t k = 0; k < count; ++k) answers[i + k] = ignored[k].surface != Surface::none ? 1 : 0;
   }
 }
 

@@ -55,24 +55,20 @@ HWY_INLINE bool cross_hull(const scene::Hull& hull, const V3& o, const V3& d, fl
 // Eight triangles at once (Möller and Trumbore 1997). Keeps the nearest that is no hole; of equally near ones that of the
 // lowest slot. None counts as nearer than `near`, where the ray enters the block's box: so a box may be left out as soon as a
 // nearer hit is known, and what is met hangs on no order.
-template <bool any_hit>
-HWY_INLINE bool hit_block(const scene::PlantModel& model, std::uint32_t block_index, const V3& o, const V3& d,
-                          float least, float near, ModelHit& hit) {
+// `corners`(corner, axis, lane): step times what the block stores, of as many lanes as a vector has.
+template <bool any_hit, typename Corners>
+HWY_INLINE bool hit_block(const scene::PlantModel& model, std::uint32_t block_index, const Corners& corners,
+                          const V3& o, const V3& d, float least, float near, ModelHit& hit) {
   const scene::TriangleBlock& block = model.blocks[block_index];
   HWY_ALIGN float ts[8], us[8], vs[8], dets[8];
   std::uint32_t hits = 0;
-  const V8 step = hn::Set(f8, model.step_m);
   const V8 bx = hn::Set(f8, model.origin.x - o.x), by = hn::Set(f8, model.origin.y - o.y),
            bz = hn::Set(f8, model.origin.z - o.z);
   const V8 dx = hn::Set(f8, d.x), dy = hn::Set(f8, d.y), dz = hn::Set(f8, d.z);
   const V8 zero = hn::Zero(f8);
   for (std::size_t k = 0; k < 8; k += hn::Lanes(f8)) {
-    const auto corner = [&](int c, int axis, V8 base) HWY_ATTR {
-      return hn::Add(
-          base,
-          hn::Mul(step,
-                  floats_of(block.corners[static_cast<std::size_t>(c)][static_cast<std::size_t>(axis)].data() + k)));
-    };
+    const auto corner = [&](std::size_t c, std::size_t axis, V8 base)
+                            HWY_ATTR { return hn::Add(base, corners(c, axis, k)); };
     const V8 ax = corner(0, 0, bx), ay = corner(0, 1, by), az = corner(0, 2, bz);
     const V8 e1x = hn::Sub(corner(1, 0, bx), ax), e1y = hn::Sub(corner(1, 1, by), ay),
              e1z = hn::Sub(corner(1, 2, bz), az);
@@ -120,6 +116,30 @@ HWY_INLINE bool hit_block(const scene::PlantModel& model, std::uint32_t block_in
   return found;
 }
 
+// The corners of a block as it lies there.
+struct StoredCorners {
+  const scene::TriangleBlock& block;
+  V8 step;
+  HWY_INLINE V8 operator()(std::size_t corner, std::size_t axis, std::size_t k) const {
+    return hn::Mul(step, floats_of(block.corners[corner][axis].data() + k));
+  }
+};
+
+// The same numbers, made once for several rays.
+struct DecodedCorners {
+  HWY_ALIGN float at[3][3][scene::block_size];
+
+  HWY_INLINE explicit DecodedCorners(const StoredCorners& from) {
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::size_t k = 0; k < scene::block_size; k += hn::Lanes(f8))
+          hn::Store(from(c, axis, k), f8, at[c][axis] + k);
+  }
+  HWY_INLINE V8 operator()(std::size_t corner, std::size_t axis, std::size_t k) const {
+    return hn::Load(f8, at[corner][axis] + k);
+  }
+};
+
 HWY_INLINE void prefetch_node(const scene::PlantModel& model, std::uint32_t index) {
   const auto* node = reinterpret_cast<const std::uint8_t*>(&model.nodes[index]);
   hwy::Prefetch(node);
@@ -159,12 +179,14 @@ HWY_INLINE bool walk_model(const scene::PlantModel& model, const V3& o, const V3
   int size = 0;
   bool found = false;
   const BoxRay ray(model, o, d);
+  const V8 step = hn::Set(f8, model.step_m);
   for (;;) {
     const float from = distance_of(entry);
     std::uint32_t hits = 0;
     if (from <= hit.t) {
       if (is_leaf(entry)) {
-        if (hit_block<any_hit>(model, index_of(entry), o, d, least, from, hit)) {
+        if (hit_block<any_hit>(model, index_of(entry), StoredCorners{model.blocks[index_of(entry)], step}, o, d, least,
+                               from, hit)) {
           found = true;
           if (any_hit) return true;
         }
