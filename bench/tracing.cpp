@@ -1,8 +1,9 @@
 // The nested trees beside one flat structure of Embree: memory, build and time, on the paper's scenes.
 //
-// tracing [--threads N] [--runs N] [--triangles N] [--scene NAME] [--way NAME]: prints Markdown. Rays from the eye only, 1920 x 1080, one a pixel, as in the
-// paper's Table 2 ("without shadows"); full models, and for the nested trees their simpler levels too. Each backend works in a
-// process of its own, so that its peak of memory is its own; the two see the same rays of the same scene.
+// tracing [--threads N] [--runs N] [--triangles N] [--scene NAME] [--way NAME] [--view NAME]: prints Markdown. Rays from the eye
+// only, 1920 x 1080, one a pixel, as in the paper's Table 2 ("without shadows"); full models, and for the nested trees their
+// simpler levels too. "Embree" asks ray by ray, "Embree, packets" sixteen rays of 4 x 4 pixels at once. Each way works in a
+// process of its own, so that its peak of memory is its own; all see the same rays of the same scene in the same order.
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -37,6 +38,11 @@ namespace fs = std::filesystem;
 using namespace silvavis;
 
 constexpr int width = 1920, height = 1080;
+
+struct Setup {
+  int threads = 0, runs = 3, triangles = 160000;
+  std::string scene, way, view;  // empty: all
+};
 using silva_bench::camera_of, silva_bench::views;
 
 struct Figures {
@@ -65,7 +71,9 @@ std::uint64_t trace(const scene::Scene& scene, const accel::Tracer& tracer, std:
     const int left = static_cast<int>(i) % (width / across) * across,
               top = static_cast<int>(i) / (width / across) * down;
     for (int k = 0; k < across * down; ++k) {
-      const shade::CameraRay ray = shade::ray_through(lens, left + k % across + 0.5, top + k / across + 0.5);
+      // Squares of 4 x 4 pixels one after another.
+      const int square = k / 16, x = left + square % 4 * 4 + k % 4, y = top + square / 4 * 4 + k % 16 / 4;
+      const shade::CameraRay ray = shade::ray_through(lens, x + 0.5, y + 0.5);
       rays[static_cast<std::size_t>(k)].origin = ray.origin;
       rays[static_cast<std::size_t>(k)].direction = ray.direction;
       if (lod) rays[static_cast<std::size_t>(k)].spread = static_cast<float>(lens.footprint_rad);
@@ -81,26 +89,30 @@ std::uint64_t trace(const scene::Scene& scene, const accel::Tracer& tracer, std:
   return sum;
 }
 
-Figures measure(silvasim::ecosystem::Ecosystem ecosystem, const std::string& way, int runs, int triangles) {
+Figures measure(silvasim::ecosystem::Ecosystem ecosystem, const std::string& way, const Setup& setup) {
   Figures figures;
   auto mark = std::chrono::steady_clock::now();
   FloraOptions options;
-  options.triangles = triangles;
+  options.triangles = setup.triangles;
   options.variants = 1;
   options.levels = way == "nested, levels";
   Flora flora = models_of(ecosystem, options);
   figures.models_s = seconds_since(mark);
   const scene::Scene scene = scene::make_scene(std::move(ecosystem), flora.models);
   figures.scene_s = seconds_since(mark);
-  const auto tracer = way == "Embree" ? accel::make_embree(scene) : accel::make_nested(scene);
+  const bool embree = way.starts_with("Embree");
+  const auto tracer = embree
+                          ? accel::make_embree(scene, way == "Embree" ? accel::Flat::instances : accel::Flat::packets)
+                          : accel::make_nested(scene);
   figures.build_s = seconds_since(mark);
   figures.plants = scene.plants;
   figures.plant_mb = static_cast<double>(scene.plant_bytes()) / 1e6;
   for (const auto& model : scene.models) figures.model_mb += static_cast<double>(model->bytes()) / 1e6;
-  if (way == "Embree") figures.plant_mb = static_cast<double>(tracer->bytes()) / 1e6;
+  if (embree) figures.plant_mb = static_cast<double>(tracer->bytes()) / 1e6;
   for (std::size_t view = 0; view < views.size(); ++view) {
+    if (!setup.view.empty() && setup.view != views[view]) continue;
     std::vector<double> times;
-    for (int run = 0; run < runs; ++run) {
+    for (int run = 0; run < setup.runs; ++run) {
       seconds_since(mark);
       const std::clock_t begin = std::clock();
       figures.check[view] = trace(scene, *tracer, view, options.levels);
@@ -116,13 +128,13 @@ Figures measure(silvasim::ecosystem::Ecosystem ecosystem, const std::string& way
 }
 
 // In a child process, whose figures come back through a pipe.
-Figures measure_apart(const fs::path& file, const std::string& way, int threads, int runs, int triangles) {
+Figures measure_apart(const fs::path& file, const std::string& way, const Setup& setup) {
   int ends[2];
   if (pipe(ends) != 0) throw silvasim::base::Error("no pipe");
   const pid_t child = fork();
   if (child == 0) {
-    const silvasim::base::ThreadLimit limit(threads);
-    const Figures figures = measure(silvasim::ecosystem::read(file), way, runs, triangles);
+    const silvasim::base::ThreadLimit limit(setup.threads);
+    const Figures figures = measure(silvasim::ecosystem::read(file), way, setup);
     const bool written = write(ends[1], &figures, sizeof figures) == static_cast<ssize_t>(sizeof figures);
     _exit(written ? 0 : 1);
   }
@@ -140,24 +152,24 @@ Figures measure_apart(const fs::path& file, const std::string& way, int threads,
 
 int main(int argc, char** argv) {
   silvasim::base::give_back_large_blocks();
-  int threads = 0, runs = 3, triangles = 160000;
-  std::string only, only_way;
+  Setup setup;
   for (int i = 1; i + 1 < argc; i += 2) {
-    if (std::strcmp(argv[i], "--threads") == 0) threads = std::atoi(argv[i + 1]);
-    if (std::strcmp(argv[i], "--runs") == 0) runs = std::max(1, std::atoi(argv[i + 1]));
-    if (std::strcmp(argv[i], "--triangles") == 0) triangles = std::atoi(argv[i + 1]);
-    if (std::strcmp(argv[i], "--scene") == 0) only = argv[i + 1];
-    if (std::strcmp(argv[i], "--way") == 0) only_way = argv[i + 1];
+    if (std::strcmp(argv[i], "--threads") == 0) setup.threads = std::atoi(argv[i + 1]);
+    if (std::strcmp(argv[i], "--runs") == 0) setup.runs = std::max(1, std::atoi(argv[i + 1]));
+    if (std::strcmp(argv[i], "--triangles") == 0) setup.triangles = std::atoi(argv[i + 1]);
+    if (std::strcmp(argv[i], "--scene") == 0) setup.scene = argv[i + 1];
+    if (std::strcmp(argv[i], "--way") == 0) setup.way = argv[i + 1];
+    if (std::strcmp(argv[i], "--view") == 0) setup.view = argv[i + 1];
   }
   fmt::print(
       "Seconds a frame of {} x {}, one ray a pixel, median of {} runs (least CPU seconds); models of {} triangles.\n\n",
-      width, height, runs, triangles);
+      width, height, setup.runs, setup.triangles);
   fmt::print("| scene | plants | way | models s | build s | plants MB | peak MB |");
   for (const char* view : views) fmt::print(" {} s |", view);
   fmt::print("\n|---|---|---|---|---|---|---|---|---|---|\n");
   const fs::path folder = fs::path(SILVA_SOURCE_DIR) / "bench" / "scenes";
   for (const char* name : {"unisb-3km", "puget-20km", "puget-40km"}) {
-    if (!only.empty() && only != name) continue;
+    if (!setup.scene.empty() && setup.scene != name) continue;
     const fs::path file = fs::temp_directory_path() / (std::string("silva-tracing-") + name + ".silva");
     try {
       // Grown in a child too, so that no thread lives when the others are forked.
@@ -177,9 +189,9 @@ int main(int argc, char** argv) {
       int status = 0;
       waitpid(child, &status, 0);
       if (status != 0) continue;
-      for (const char* way : {"Embree", "nested", "nested, levels"}) {
-        if (!only_way.empty() && only_way != way) continue;
-        const Figures f = measure_apart(file, way, threads, runs, triangles);
+      for (const char* way : {"Embree", "Embree, packets", "nested", "nested, levels"}) {
+        if (!setup.way.empty() && setup.way != way) continue;
+        const Figures f = measure_apart(file, way, setup);
         fmt::print("| {} | {} | {} | {:.2f} | {:.3f} | {:.1f} | {:.0f} |", name, f.plants, way, f.models_s,
                    f.scene_s + f.build_s, f.plant_mb, f.peak_mb);
         for (std::size_t view = 0; view < views.size(); ++view)

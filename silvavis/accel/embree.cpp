@@ -5,6 +5,7 @@
 #include <xmmintrin.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <unordered_map>
@@ -18,6 +19,7 @@ namespace silvavis::accel {
 namespace {
 
 constexpr unsigned int ground_id = 0;
+constexpr std::size_t packet_size = 16;
 
 // Which plant an instance or primitive is.
 struct Place {
@@ -91,7 +93,8 @@ void skip_holes_exactly(const RTCFilterFunctionNArguments* arguments) {
 
 class Flatland final : public Tracer {
  public:
-  Flatland(const scene::Scene& scene, Flat flat) : scene_(scene), exact_(flat == Flat::exact) {
+  Flatland(const scene::Scene& scene, Flat flat)
+      : scene_(scene), exact_(flat == Flat::exact), packets_(flat == Flat::packets) {
     device_ = rtcNewDevice(nullptr);
     if (!device_) throw silvasim::base::Error("Embree cannot start on this machine");
     rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
@@ -113,7 +116,10 @@ class Flatland final : public Tracer {
 
   void nearest(std::span<const Ray> rays, std::span<Hit> hits) const override {
     const FlushDenormals flush;
-    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = nearest(rays[i]);
+    std::size_t i = 0;
+    if (packets_)
+      for (; i < rays.size(); i += packet_size) nearest_packet(rays.subspan(i), hits.subspan(i));
+    for (; i < rays.size(); ++i) hits[i] = nearest(rays[i]);
   }
 
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> answers) const override {
@@ -173,19 +179,53 @@ class Flatland final : public Tracer {
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(top_, &context.embree, &query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Hit{};
-    if (query.hit.instID[0] == RTC_INVALID_GEOMETRY_ID && query.hit.geomID == ground_id) {
-      hit = Hit{};
+    const bool on_ground = query.hit.instID[0] == RTC_INVALID_GEOMETRY_ID && query.hit.geomID == ground_id;
+    if (exact_ && query.hit.geomID != RTC_INVALID_GEOMETRY_ID && !on_ground) return hit;  // filled on the way
+    return hit_of(query.hit.geomID, query.hit.instID[0], query.hit.primID, query.ray.tfar, query.hit.u, query.hit.v);
+  }
+
+  // The first sixteen rays, or all where there are fewer.
+  void nearest_packet(std::span<const Ray> rays, std::span<Hit> hits) const {
+    const std::size_t count = std::min(rays.size(), packet_size);
+    alignas(64) RTCRayHit16 query{};
+    alignas(64) std::array<int, packet_size> valid{};
+    for (std::size_t i = 0; i < count; ++i) {
+      const RTCRay ray = ray_of(rays[i]);
+      valid[i] = -1;
+      query.ray.org_x[i] = ray.org_x;
+      query.ray.org_y[i] = ray.org_y;
+      query.ray.org_z[i] = ray.org_z;
+      query.ray.dir_x[i] = ray.dir_x;
+      query.ray.dir_y[i] = ray.dir_y;
+      query.ray.dir_z[i] = ray.dir_z;
+      query.ray.tnear[i] = ray.tnear;
+      query.ray.tfar[i] = ray.tfar;
+      query.ray.mask[i] = ray.mask;
+      query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    rtcIntersect16(valid.data(), top_, &context, &query);
+    for (std::size_t i = 0; i < count; ++i)
+      hits[i] = hit_of(query.hit.geomID[i], query.hit.instID[0][i], query.hit.primID[i], query.ray.tfar[i],
+                       query.hit.u[i], query.hit.v[i]);
+  }
+
+  // What Embree's numbers mean.
+  Hit hit_of(unsigned int geometry, unsigned int instance, unsigned int slot, float distance, float u, float v) const {
+    Hit hit;
+    if (geometry == RTC_INVALID_GEOMETRY_ID) return hit;
+    hit.distance = static_cast<double>(distance);
+    if (instance == RTC_INVALID_GEOMETRY_ID && geometry == ground_id) {
       hit.surface = Surface::ground;
-      hit.distance = static_cast<double>(query.ray.tfar);
       return hit;
     }
-    if (exact_) return hit;
-    set_place(hit, places_[query.hit.instID[0] - 1]);
-    hit.distance = static_cast<double>(query.ray.tfar);
-    hit.slot = query.hit.primID;
-    hit.u = query.hit.u;
-    hit.v = query.hit.v;
+    set_place(hit, places_[instance - 1]);
+    hit.slot = slot;
+    hit.u = u;
+    hit.v = v;
     return hit;
   }
 
@@ -418,7 +458,7 @@ class Flatland final : public Tracer {
   }
 
   const scene::Scene& scene_;
-  bool exact_;
+  bool exact_, packets_;
   RTCDevice device_ = nullptr;
   RTCScene top_ = nullptr;
   std::vector<RTCScene> models_;

@@ -9,6 +9,7 @@ namespace silvavis::accel {
 
 enum class Flat {
   instances,  // each plant an instance of Embree with its matrix: what other renderers do
+  packets,    // the same, sixteen rays in a row at once: the faster way where neighbours meet the same plants
   exact,  // each plant a primitive whose ray is decoded by scene::local_ray(): the same plant in every pixel, slower
 };
 

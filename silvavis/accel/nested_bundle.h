@@ -29,6 +29,8 @@ struct Bundle {
   float least_ox, most_ox, least_oy, most_oy, least_oz, most_oz, least_dz, most_dz;
   float least_ix, most_ix, least_iy, most_iy;
   float least;
+  // How far the rays are from the first one at a distance t: apart + t * part.
+  float apart, part;
 
   bool flip_x() const { return flats[0].dx < 0; }
   bool flip_y() const { return flats[0].dy < 0; }
@@ -93,7 +95,13 @@ HWY_INLINE void gather(std::span<const Ray> rays, double apart_m, Bundle& bundle
   without_sign(bundle.least_iy, bundle.most_iy);
   bundle.least_dz = bundle.most_dz = bundle.flats[0].dz;
   bundle.least = bundle.leasts[0];
+  bundle.apart = bundle.part = 0;
   for (std::size_t i = 1; i < n; ++i) {
+    const V3d apart = rays[i].origin - rays[0].origin;
+    bundle.apart =
+        std::max(bundle.apart, static_cast<float>(std::abs(apart.x) + std::abs(apart.y) + std::abs(apart.z)));
+    const V3 part = rays[i].direction - rays[0].direction;
+    bundle.part = std::max(bundle.part, std::abs(part.x) + std::abs(part.y) + std::abs(part.z));
     bundle.least_dz = std::min(bundle.least_dz, bundle.flats[i].dz);
     bundle.most_dz = std::max(bundle.most_dz, bundle.flats[i].dz);
     bundle.least = std::min(bundle.least, bundle.leasts[i]);
@@ -106,10 +114,10 @@ struct BundleEntry {
   std::int32_t level, column, row;
 };
 
-// Calls leaf(i, column, row) for the nodes of level 0 whose box ray i crosses, about front to back. `leaf` may shrink the ray's
-// best.
+// Calls leaf(rays, near, column, row) for the nodes of level 0 whose box some rays cross, with those rays' bits and where the
+// first of them enters it, about front to back. `leaf` may shrink the rays' bests.
 template <typename Leaf>
-HWY_INLINE void walk_together(const scene::Pyramid& pyramid, Bundle& bundle, Leaf& leaf) {
+HWY_INLINE void walk_pyramid_together(const scene::Pyramid& pyramid, Bundle& bundle, Leaf& leaf) {
   const bool flip_x = bundle.flip_x(), flip_y = bundle.flip_y();
   const std::uint32_t flip = (flip_x ? 3u : 0u) | (flip_y ? 12u : 0u);
   const float margin = pyramid.margin_m + 0.02f;
@@ -153,11 +161,16 @@ HWY_INLINE void walk_together(const scene::Pyramid& pyramid, Bundle& bundle, Lea
         hn::Store(near, f8, nears + k);
         hits |= bits_of(f8, hn::Le(near, far)) << k;
       }
+      std::uint32_t rays = 0;
+      float first = 1e30f;
       for (hits &= (1u << bundle.count) - 1; hits != 0; hits &= hits - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(hits));
-        const auto best = static_cast<float>(std::min(bundle.bests[i], 1e30));
-        if (nears[i] <= best) leaf(i, entry.column, entry.row);
+        if (nears[i] > static_cast<float>(std::min(bundle.bests[i], 1e30))) continue;
+        rays |= 1u << i;
+        first = std::min(first, nears[i]);
       }
+      if (rays == 0) continue;
+      leaf(rays, first, entry.column, entry.row);
       most = bundle.most();
       continue;
     }

@@ -1,113 +1,165 @@
 // The traversal of the nested trees, compiled once for each instruction set (see nested.cpp, the only one to include it).
 //
-// The story of a ray: with its neighbours front to back over the land, alone in each tile position through the tile's sites, for
-// each plant whose hull it crosses through the model's tree, and then to the ground beneath. The other layers follow, each with
-// its own tiles.
+// The story of a ray: with its neighbours front to back over the land, in each tile position through the tile's sites, for each
+// plant whose hull it crosses through the model's tree, and then to the ground beneath. The other layers follow, each with its
+// own tiles. Neighbours stay together as long as that is less work (nested_bundle.h, nested_packet.h); what a ray meets does
+// not hang on its company.
 #include "silvavis/accel/nested.h"
 #include "silvavis/accel/nested_bundle.h"
-#include "silvavis/accel/nested_sites.h"
+#include "silvavis/accel/nested_packet.h"
 
 // No include guard: Highway includes it once for each target.
 HWY_BEFORE_NAMESPACE();
 namespace silvavis::accel::HWY_NAMESPACE {
 
-// A leaf of the land: the Wang tile that lies there, and the ground beneath it.
-template <bool any_hit>
-struct LandWalk {
-  const scene::Scene& scene;
-  LayerWalk<any_hit> plants;
-  bool has_plants;
-  bool found = false;
+const scene::PlantLayer& layer_or_none(const scene::Scene& scene, std::size_t k) {
+  static const scene::PlantLayer none;
+  return k < scene.layers.size() ? scene.layers[k] : none;
+}
 
-  HWY_INLINE bool operator()(int node_column, int node_row) {
-    PyramidEntry entry = plants.whole_ray(node_column, node_row);
-    float ground_near = 0, ground_far = 0;
-    if (!narrow_land(scene.land, plants.flat, entry, ground_near, ground_far)) return false;
-    const int column = node_column + scene.land.first_column, row = node_row + scene.land.first_row;
-    if (has_plants && column >= 0 && row >= 0 && column < plants.layer.columns && row < plants.layer.rows &&
-        plants.meet_tile(column, row, entry))
-      return found = true;
-    const auto most = static_cast<float>(std::min(plants.best, static_cast<double>(ground_far)));
-    if (ground_near <= most && nearest_ground(scene, plants.flat, plants.ray, ground_near, most, plants.best)) {
-      plants.hit.surface = Surface::ground;
-      found = true;
-    }
-    return any_hit && found;
-  }
+// Where a ray crosses a tile position, and where it may meet the ground there (near > far: nowhere).
+struct Crossing {
+  PyramidEntry box;
+  float ground_near = 1e30f, ground_far = -1e30f;
 };
 
-const scene::PlantLayer& first_layer(const scene::Scene& scene) {
-  static const scene::PlantLayer none;
-  return scene.layers.empty() ? none : scene.layers.front();
-}
+// The tile positions of a layer; those of the first lie on the land.
+template <bool any_hit>
+struct Leaves {
+  const scene::Scene& scene;
+  std::size_t k;
+  const scene::PlantLayer& layer;
+  int first_column, first_row;  // of the pyramid's first node
 
-// A leaf of the land, and of another layer, for one ray; true: something is there, and nothing nearer is asked for.
-template <bool any_hit>
-HWY_NOINLINE bool meet_land(const scene::Scene& scene, const Ray& ray, const FlatRay& flat, std::uint64_t hash,
-                            int column, int row, double& best, Hit& hit) {
-  LandWalk<any_hit> walk{
-      scene, {scene, first_layer(scene), 0, ray, flat, hash, best, hit, false}, !scene.layers.empty()};
-  return walk(column, row);
-}
-template <bool any_hit>
-HWY_NOINLINE bool meet_layer(const scene::Scene& scene, std::size_t k, const Ray& ray, const FlatRay& flat,
-                             std::uint64_t hash, int column, int row, double& best, Hit& hit) {
-  LayerWalk<any_hit> walk{scene, scene.layers[k], static_cast<std::uint8_t>(k), ray, flat, hash, best, hit, false};
-  return walk(column, row);
-}
+  HWY_INLINE Leaves(const scene::Scene& of, std::size_t layer_index)
+      : scene(of),
+        k(layer_index),
+        layer(layer_or_none(of, layer_index)),
+        first_column(layer_index == 0 ? of.land.first_column : 0),
+        first_row(layer_index == 0 ? of.land.first_row : 0) {}
+  HWY_INLINE const scene::Pyramid& pyramid() const { return k == 0 ? scene.land.pyramid : layer.pyramid; }
+  HWY_INLINE bool has_tile(int column, int row) const {
+    return column >= 0 && row >= 0 && column < layer.columns && row < layer.rows;
+  }
+
+  HWY_INLINE bool cross(const LayerWalk<any_hit>& walk, int node_column, int node_row, Crossing& crossing) const {
+    crossing.box = walk.whole_ray(node_column, node_row);
+    if (k == 0) return narrow_land(scene.land, walk.flat, crossing.box, crossing.ground_near, crossing.ground_far);
+    return narrow(layer.pyramid, walk.flat, crossing.box);
+  }
+  HWY_INLINE void meet_ground(LayerWalk<any_hit>& walk, const Crossing& crossing) const {
+    const auto far = static_cast<float>(std::min(walk.best, static_cast<double>(crossing.ground_far)));
+    if (crossing.ground_near > far || !nearest_ground(scene, walk.flat, walk.ray, crossing.ground_near, far, walk.best))
+      return;
+    walk.hit.surface = Surface::ground;
+    walk.found = true;
+  }
+
+  // One ray at one leaf; true: something is there, and nothing nearer is asked for.
+  HWY_NOINLINE bool meet(LayerWalk<any_hit>& walk, int node_column, int node_row) const {
+    Crossing crossing;
+    if (!cross(walk, node_column, node_row, crossing)) return false;
+    const int column = node_column + first_column, row = node_row + first_row;
+    if (has_tile(column, row)) walk.meet_tile(column, row, crossing.box);
+    if (!(any_hit && walk.found)) meet_ground(walk, crossing);
+    return any_hit && walk.found;
+  }
+
+  // These rays at one leaf, together among its plants; the bits of those that ask for nothing more.
+  HWY_NOINLINE std::uint32_t meet(LayerWalk<any_hit>* walks, std::uint32_t rays, int node_column, int node_row) const {
+    Crossing crossings[packet_size];
+    PyramidEntry boxes[packet_size];
+    std::uint32_t crossing = 0, answered = 0;
+    for (; rays != 0; rays &= rays - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(rays));
+      if (!cross(walks[i], node_column, node_row, crossings[i])) continue;
+      boxes[i] = crossings[i].box;
+      crossing |= 1u << i;
+    }
+    const int column = node_column + first_column, row = node_row + first_row;
+    if (crossing != 0 && has_tile(column, row))
+      PacketWalk<any_hit>{scene, layer, walks}.meet_tile(column, row, crossing, boxes);
+    for (; crossing != 0; crossing &= crossing - 1) {
+      const auto i = static_cast<std::size_t>(std::countr_zero(crossing));
+      if (!(any_hit && walks[i].found)) meet_ground(walks[i], crossings[i]);
+      if (any_hit && walks[i].found) answered |= 1u << i;
+    }
+    return answered;
+  }
+};
 
 template <bool any_hit>
 HWY_INLINE void trace_one(const scene::Scene& scene, const Ray& ray, Hit& hit) {
   const FlatRay flat(ray);
   const std::uint64_t hash = scene::ray_hash(ray.origin, ray.direction);
-  const auto least = static_cast<float>(ray.least);
   double best = ray.most;
   bool found = false;
-  const auto land = [&](const PyramidEntry& entry) HWY_ATTR {
-    return found = meet_land<any_hit>(scene, ray, flat, hash, entry.column, entry.row, best, hit);
-  };
-  walk_whole_pyramid(scene.land.pyramid, flat, least, best, land);
-  for (std::size_t k = 1; k < scene.layers.size() && !found; ++k) {
-    const auto layer = [&](const PyramidEntry& entry) HWY_ATTR {
-      return found = meet_layer<any_hit>(scene, k, ray, flat, hash, entry.column, entry.row, best, hit);
-    };
-    walk_whole_pyramid(scene.layers[k].pyramid, flat, least, best, layer);
+  for (std::size_t k = 0; k < std::max<std::size_t>(scene.layers.size(), 1) && !found; ++k) {
+    const Leaves<any_hit> leaves(scene, k);
+    LayerWalk<any_hit> walk{scene, leaves.layer, static_cast<std::uint8_t>(k), ray, flat, hash, best, hit, false};
+    const auto leaf = [&](const PyramidEntry& entry)
+                          HWY_ATTR { return found = leaves.meet(walk, entry.column, entry.row); };
+    walk_whole_pyramid(leaves.pyramid(), flat, static_cast<float>(ray.least), best, leaf);
   }
   if (hit.surface != Surface::none) hit.distance = best;
 }
 
-// Of neighbours: bundle.count rays.
+// Values that are made one by one.
+template <typename Value>
+class PerRay {
+ public:
+  template <typename... Parts>
+  HWY_INLINE void make(std::size_t i, Parts&&... parts) {
+    static_assert(std::is_trivially_destructible_v<Value>);
+    new (values() + i) Value{std::forward<Parts>(parts)...};
+  }
+  HWY_INLINE Value& operator[](std::size_t i) { return values()[i]; }
+  HWY_INLINE Value* values() { return reinterpret_cast<Value*>(bytes_); }
+
+ private:
+  alignas(Value) std::byte bytes_[packet_size * sizeof(Value)];
+};
+
+// Neighbours walk among plants together while they are this close to each other, and each by itself farther away: a packet
+// that is wider than crowns are meets too much.
+constexpr float packet_width_m = 1.0f;
+
 template <bool any_hit>
-HWY_INLINE void trace_together(const scene::Scene& scene, Bundle& bundle, const Ray* rays, Hit* hits) {
-  std::uint64_t hashes[Bundle::most_rays];
-  for (std::size_t i = 0; i < bundle.count; ++i) hashes[i] = scene::ray_hash(rays[i].origin, rays[i].direction);
+HWY_INLINE void trace_bundle(const scene::Scene& scene, Bundle& bundle, const Ray* rays, Hit* hits) {
   // A ray that has its answer asks for nothing more.
   constexpr double answered = -1;
-  const auto land = [&](std::size_t i, int column, int row) HWY_ATTR {
-    if (meet_land<any_hit>(scene, rays[i], bundle.flats[i], hashes[i], column, row, bundle.bests[i], hits[i]))
-      bundle.bests[i] = answered;
-  };
-  walk_together(scene.land.pyramid, bundle, land);
-  for (std::size_t k = 1; k < scene.layers.size(); ++k) {
-    const auto layer = [&](std::size_t i, int column, int row) HWY_ATTR {
-      if (meet_layer<any_hit>(scene, k, rays[i], bundle.flats[i], hashes[i], column, row, bundle.bests[i], hits[i]))
-        bundle.bests[i] = answered;
+  PerRay<LayerWalk<any_hit>> walks;
+  for (std::size_t k = 0; k < std::max<std::size_t>(scene.layers.size(), 1); ++k) {
+    const Leaves<any_hit> leaves(scene, k);
+    for (std::size_t i = 0; i < bundle.count; ++i)
+      walks.make(i, scene, leaves.layer, static_cast<std::uint8_t>(k), rays[i], bundle.flats[i],
+                 scene::ray_hash(rays[i].origin, rays[i].direction), bundle.bests[i], hits[i], false);
+    const auto leaf = [&](std::uint32_t here, float near, int column, int row) HWY_ATTR {
+      if (std::popcount(here) >= together_least && bundle.apart + near * bundle.part < packet_width_m) {
+        for (std::uint32_t done = leaves.meet(walks.values(), here, column, row); done != 0; done &= done - 1)
+          bundle.bests[std::countr_zero(done)] = answered;
+        return;
+      }
+      for (; here != 0; here &= here - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(here));
+        if (leaves.meet(walks[i], column, row)) bundle.bests[i] = answered;
+      }
     };
-    walk_together(scene.layers[k].pyramid, bundle, layer);
+    walk_pyramid_together(leaves.pyramid(), bundle, leaf);
   }
   for (std::size_t i = 0; i < bundle.count; ++i)
     if (hits[i].surface != Surface::none) hits[i].distance = bundle.bests[i];
 }
 
-// Calls with runs of rays that walk together.
 template <bool any_hit>
 HWY_INLINE void trace(const scene::Scene& scene, std::span<const Ray> rays, Hit* hits) {
+  static_assert(Bundle::most_rays == packet_size);
   Bundle bundle;
   const double apart_m = static_cast<double>(scene.land.pyramid.cell_x_m);
   for (std::size_t first = 0; first < rays.size(); first += bundle.count) {
     gather(rays.subspan(first), apart_m, bundle);
     if (bundle.count > 1) {
-      trace_together<any_hit>(scene, bundle, &rays[first], hits + first);
+      trace_bundle<any_hit>(scene, bundle, &rays[first], hits + first);
     } else {
       trace_one<any_hit>(scene, rays[first], hits[first]);
     }

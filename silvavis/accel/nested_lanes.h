@@ -71,13 +71,17 @@ struct FlatRay {
   }
 };
 
-// What waits on a stack: a distance beyond the walk's begin and what is there, in one number that sorts by the distance (the
-// bits of floats that are not negative sort like the floats).
-HWY_INLINE std::uint64_t waiting(float beyond, std::uint32_t index, bool leaf) {
-  return std::uint64_t{std::bit_cast<std::uint32_t>(beyond)} << 32 | std::uint64_t{index} << 1 | (leaf ? 1 : 0);
+// What waits on a stack: a distance and what is there, in one number that sorts by the distance.
+HWY_INLINE std::uint64_t waiting(float distance, std::uint32_t index, bool leaf) {
+  // The bits of positive floats sort like the floats, those of negative ones the other way round and above them.
+  const auto bits = std::bit_cast<std::uint32_t>(distance);
+  const std::uint32_t rising = bits ^ (static_cast<std::uint32_t>(static_cast<std::int32_t>(bits) >> 31) | 0x80000000u);
+  return std::uint64_t{rising} << 32 | std::uint64_t{index} << 1 | (leaf ? 1 : 0);
 }
 HWY_INLINE float distance_of(std::uint64_t entry) {
-  return std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32));
+  const auto rising = static_cast<std::uint32_t>(entry >> 32);
+  return std::bit_cast<float>(rising ^
+                              (static_cast<std::uint32_t>(~static_cast<std::int32_t>(rising) >> 31) | 0x80000000u));
 }
 HWY_INLINE std::uint32_t index_of(std::uint64_t entry) { return static_cast<std::uint32_t>(entry) >> 1; }
 HWY_INLINE bool is_leaf(std::uint64_t entry) { return (entry & 1) != 0; }

@@ -82,7 +82,7 @@ std::vector<Triangle> quantised(const assets::Model& from, PlantModel& to) {
   return triangles;
 }
 
-// The tree as Embree's builder leaves it, in its own memory.
+// The binary tree as Embree's builder leaves it, in its own memory.
 struct Built {
   bool leaf = false;
 };
@@ -91,15 +91,12 @@ struct BuiltLeaf : Built {
   std::array<std::uint32_t, scene::block_size> triangles{};
 };
 struct BuiltNode : Built {
-  std::uint32_t count = 0;
-  std::array<Built*, scene::node_size> children{};
-  std::array<Bounds, scene::node_size> bounds{};
+  std::array<Built*, 2> children{};
+  std::array<Bounds, 2> bounds{};
 };
 
-void* create_node(RTCThreadLocalAllocator allocator, unsigned int count, void*) {
-  auto* node = new (rtcThreadLocalAlloc(allocator, sizeof(BuiltNode), 16)) BuiltNode;
-  node->count = count;
-  return node;
+void* create_node(RTCThreadLocalAllocator allocator, unsigned int, void*) {
+  return new (rtcThreadLocalAlloc(allocator, sizeof(BuiltNode), 16)) BuiltNode;
 }
 void set_children(void* pointer, void** children, unsigned int count, void*) {
   auto* node = static_cast<BuiltNode*>(pointer);
@@ -122,20 +119,90 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pr
   return leaf;
 }
 
-struct Counts {
-  std::size_t nodes = 0, leaves = 0;
-};
-Counts counted(const Built& built) {
-  if (built.leaf) return {0, 1};
-  const auto& node = static_cast<const BuiltNode&>(built);
-  Counts sum{1, 0};
-  for (std::uint32_t c = 0; c < node.count; ++c) {
-    const Counts below = counted(*node.children[c]);
-    sum.nodes += below.nodes;
-    sum.leaves += below.leaves;
+// Which nodes of the binary tree become nodes of sixteen children: those that make the sum of their surfaces least, which is
+// how many of them a ray is expected to visit. For each node and 1 to 16 places in the node above, the least sum that its part
+// of the tree can have, from the bottom up (Ylitie, Karras and Laine 2017, section 3; here leaves are given).
+class Collapse {
+ public:
+  Collapse(const Built* root, const Bounds& bounds) { root_ = add(root, bounds); }
+
+  struct Child {
+    const Built* built;
+    const Bounds* bounds;
+    std::uint32_t index;
+  };
+  // The up to sixteen children of a node of the binary tree that becomes one of the wide tree.
+  std::vector<Child> children_of(std::uint32_t index) const {
+    std::vector<Child> children;
+    const Place& place = places_[index];
+    if (place.built->leaf) return {{place.built, &place.bounds, index}};  // a model of one block
+    gather(place.first, place.split[scene::node_size - 1], children);
+    gather(place.second, static_cast<std::uint8_t>(scene::node_size - place.split[scene::node_size - 1]), children);
+    return children;
   }
-  return sum;
-}
+  std::uint32_t root() const { return root_; }
+  std::size_t leaves() const { return leaves_; }
+
+ private:
+  struct Place {
+    const Built* built = nullptr;
+    Bounds bounds;
+    std::uint32_t first = 0, second = 0;                 // children
+    std::array<float, scene::node_size> cost{};          // [places - 1]
+    std::array<std::uint8_t, scene::node_size> split{};  // how many places the first child takes; 0: a node of its own
+  };
+
+  static float area(const Bounds& b) {
+    const V3 size = b.most - b.least;
+    return size.x * size.y + size.y * size.z + size.z * size.x;
+  }
+
+  std::uint32_t add(const Built* built, const Bounds& bounds) {
+    Place place;
+    place.built = built;
+    place.bounds = bounds;
+    if (built->leaf) {
+      ++leaves_;
+    } else {
+      const auto& node = static_cast<const BuiltNode&>(*built);
+      place.first = add(node.children[0], node.bounds[0]);
+      place.second = add(node.children[1], node.bounds[1]);
+      const Place &a = places_[place.first], &b = places_[place.second];
+      for (std::size_t places = 2; places <= scene::node_size; ++places) {
+        float& least = place.cost[places - 1];
+        least = std::numeric_limits<float>::max();
+        for (std::size_t k = 1; k < places; ++k) {
+          const float cost = a.cost[k - 1] + b.cost[places - k - 1];
+          if (cost >= least) continue;
+          least = cost;
+          place.split[places - 1] = static_cast<std::uint8_t>(k);
+        }
+      }
+      place.cost[0] = place.cost[scene::node_size - 1] + area(bounds);
+      for (std::size_t places = 2; places < scene::node_size; ++places) {
+        if (place.cost[0] > place.cost[places - 1]) continue;
+        place.cost[places - 1] = place.cost[0];
+        place.split[places - 1] = 0;
+      }
+    }
+    places_.push_back(place);
+    return static_cast<std::uint32_t>(places_.size() - 1);
+  }
+
+  void gather(std::uint32_t index, std::uint8_t places, std::vector<Child>& children) const {
+    const Place& place = places_[index];
+    if (place.built->leaf || places == 1 || place.split[places - 1u] == 0) {
+      children.push_back({place.built, &place.bounds, index});
+      return;
+    }
+    gather(place.first, place.split[places - 1u], children);
+    gather(place.second, static_cast<std::uint8_t>(places - place.split[places - 1u]), children);
+  }
+
+  std::vector<Place> places_;
+  std::uint32_t root_ = 0;
+  std::size_t leaves_ = 0;
+};
 
 class Device {
  public:
@@ -229,8 +296,8 @@ class Packer {
     RTCBVH bvh = rtcNewBVH(device.get());
     RTCBuildArguments arguments = rtcDefaultBuildArguments();
     arguments.buildQuality = RTC_BUILD_QUALITY_MEDIUM;
-    arguments.maxBranchingFactor = scene::node_size;
-    arguments.maxDepth = scene::most_depth;
+    arguments.maxBranchingFactor = 2;
+    arguments.maxDepth = 1024;
     arguments.sahBlockSize = scene::block_size;
     arguments.minLeafSize = scene::block_size;
     arguments.maxLeafSize = scene::block_size;
@@ -248,30 +315,25 @@ class Packer {
       throw silvasim::base::Error("Embree could not build the tree of model \"" + from_.name + "\"");
     }
     primitives = {};
-    const Counts counts = counted(*root);
-    to_.blocks.reserve(counts.leaves);
-    to_.normals.reserve(counts.leaves * scene::block_size);
-    to_.nodes.reserve(std::max<std::size_t>(counts.nodes, 1));
-    to_.nodes.resize(1);
-    if (root->leaf) {
-      BuiltNode above;
-      above.count = 1;
-      above.children[0] = const_cast<Built*>(root);
-      above.bounds[0] = {to_.least, to_.most};
-      fill(0, above, 0);
-    } else {
-      fill(0, *static_cast<const BuiltNode*>(root), 0);
+    {
+      const Collapse collapse(root, {to_.least, to_.most});
+      to_.blocks.reserve(collapse.leaves());
+      to_.normals.reserve(collapse.leaves() * scene::block_size);
+      to_.nodes.resize(1);
+      fill(0, collapse, collapse.root(), 0);
+      to_.nodes.shrink_to_fit();
     }
     rtcReleaseBVH(bvh);
   }
 
-  void fill(std::size_t index, const BuiltNode& built, int depth) {
+  void fill(std::size_t index, const Collapse& collapse, std::uint32_t from, int depth) {
     if (depth >= scene::most_depth)
       throw silvasim::base::Error("the triangles of model \"" + from_.name + "\" lie so that no tree of " +
                                   std::to_string(scene::most_depth) + " levels holds them");
+    const std::vector<Collapse::Child> children = collapse.children_of(from);
     scene::TreeNode node;
     Bounds box;
-    for (std::uint32_t c = 0; c < built.count; ++c) box.add(built.bounds[c]);
+    for (const auto& child : children) box.add(*child.bounds);
     for (int a = 0; a < 3; ++a) {
       const auto axis = static_cast<std::size_t>(a);
       node.origin[axis] = box.least[a];
@@ -280,20 +342,20 @@ class Packer {
       std::frexp(std::max((box.most[a] - box.least[a]) / 254.0f, 1e-9f), &power);
       node.exponent[axis] = static_cast<std::uint8_t>(power + 127);
       const float step = node.step(axis);
-      for (std::uint32_t c = 0; c < built.count; ++c) {
+      for (std::size_t c = 0; c < children.size(); ++c) {
         const auto decoded_bound = [&](int byte) { return node.origin[axis] + step * static_cast<float>(byte); };
-        int low = static_cast<int>(std::floor((built.bounds[c].least[a] - node.origin[axis]) / step));
-        int high = static_cast<int>(std::ceil((built.bounds[c].most[a] - node.origin[axis]) / step));
-        while (low > 0 && decoded_bound(low) > built.bounds[c].least[a]) --low;
-        while (high < 255 && decoded_bound(high) < built.bounds[c].most[a]) ++high;
+        int low = static_cast<int>(std::floor((children[c].bounds->least[a] - node.origin[axis]) / step));
+        int high = static_cast<int>(std::ceil((children[c].bounds->most[a] - node.origin[axis]) / step));
+        while (low > 0 && decoded_bound(low) > children[c].bounds->least[a]) --low;
+        while (high < 255 && decoded_bound(high) < children[c].bounds->most[a]) ++high;
         node.least[axis][c] = static_cast<std::uint8_t>(std::clamp(low, 0, 255));
         node.most[axis][c] = static_cast<std::uint8_t>(std::clamp(high, 0, 255));
       }
     }
     std::uint32_t inner = 0;
-    for (std::uint32_t c = 0; c < built.count; ++c) {
+    for (std::size_t c = 0; c < children.size(); ++c) {
       const auto bit = static_cast<std::uint16_t>(1u << c);
-      if (built.children[c]->leaf) {
+      if (children[c].built->leaf) {
         node.leaves |= bit;
       } else {
         node.inner |= bit;
@@ -301,14 +363,14 @@ class Packer {
       }
     }
     node.first_block = static_cast<std::uint32_t>(to_.blocks.size());
-    for (std::uint32_t c = 0; c < built.count; ++c)
-      if (built.children[c]->leaf) add_block(*static_cast<const BuiltLeaf*>(built.children[c]));
+    for (std::size_t c = 0; c < children.size(); ++c)
+      if (children[c].built->leaf) add_block(*static_cast<const BuiltLeaf*>(children[c].built));
     node.first_node = static_cast<std::uint32_t>(to_.nodes.size());
     to_.nodes.resize(to_.nodes.size() + inner);
     to_.nodes[index] = node;
     std::uint32_t next = node.first_node;
-    for (std::uint32_t c = 0; c < built.count; ++c)
-      if (!built.children[c]->leaf) fill(next++, *static_cast<const BuiltNode*>(built.children[c]), depth + 1);
+    for (std::size_t c = 0; c < children.size(); ++c)
+      if (!children[c].built->leaf) fill(next++, collapse, children[c].index, depth + 1);
   }
 
   void add_block(const BuiltLeaf& leaf) {

@@ -1,6 +1,7 @@
 // From a model of floats to the quantised one that is traced: builds the tree, orders triangles by its leaves.
 //
-// The tree's shape comes from Embree's builder (surface area heuristic); its nodes and leaves are ours.
+// A binary tree and its leaves come from Embree's builder (surface area heuristic); which of its nodes become nodes of sixteen is
+// chosen so that rays are expected to visit the fewest.
 // Errors: base::Error for a model whose triangles all vanish at 1/65535 of its size.
 // Threads: parallel inside. Cost: docs/performance.md.
 #pragma once

@@ -60,6 +60,13 @@ TEST(InstructionSets, AllGiveTheSameBits) {
     if (i % 50 == 0) ray.direction = {0, 0, -1};
     if (i % 7 == 0) ray.most = between(1, 200);
     if (i % 11 == 0) ray.least = between(0, 50);
+    // Every other sixteen go together.
+    if (i / 16 % 2 == 1 && i % 16 != 0) {
+      ray.origin = rays[i / 16 * 16].origin;
+      ray.direction =
+          (rays[i / 16 * 16].direction + V3(random.next_float(), random.next_float(), random.next_float()) * 0.004f)
+              .normalized();
+    }
     const float wide = 6 * random.next_float();
     model_rays[i].origin = {wide - 3, 6 * random.next_float() - 3, 22 * random.next_float() - 1};
     model_rays[i].direction =
