@@ -68,8 +68,9 @@ void Sampler::add(std::span<Pixel> pixels, std::span<const std::size_t> open, in
   samples_.clear();
   for (const std::size_t i : open) {
     const int more = std::min(count, options_.samples - pixels[i].samples);
+    const PixelSequence sequence(options_.seed, pixels[i].x, pixels[i].y, options_.samples);
     for (int k = 0; k < more; ++k) {
-      samples_.push_back(sample_of(pixels[i], pixels[i].samples + k));
+      samples_.push_back(sample_of(pixels[i], sequence, pixels[i].samples + k));
       samples_.back().pixel = i;
     }
   }
@@ -104,20 +105,20 @@ void Sampler::meet(Sample& sample, const accel::Hit& hit) const {
   }
 }
 
-Sampler::Sample Sampler::sample_of(const Pixel& pixel, int number) const {
+Sampler::Sample Sampler::sample_of(const Pixel& pixel, const PixelSequence& sequence, int number) const {
   silvasim::base::Stream random(options_.seed, silvasim::base::Purpose::picture, static_cast<std::uint32_t>(pixel.x),
                                 static_cast<std::uint32_t>(pixel.y), static_cast<std::uint32_t>(number));
   Sample sample;
-  for (float& draw : sample.draws) draw = random.next_float();
+  const auto [sky_u, sky_v] = sequence.at(1, number);
+  sample.draws[0] = sky_u;
+  sample.draws[1] = sky_v;
+  sample.draws[2] = random.next_float();
+  sample.draws[3] = random.next_float();
   float dx = 0, dy = 0;
   if (options_.samples > 1) {
-    // An even sequence (Roberts 2018), shifted by pixel.
-    silvasim::base::Stream shift(options_.seed, silvasim::base::Purpose::picture, static_cast<std::uint32_t>(pixel.x),
-                                 static_cast<std::uint32_t>(pixel.y), 0xFFFFFFFFu);
-    const float u = shift.next_float() + 0.7548777f * static_cast<float>(number),
-                v = shift.next_float() + 0.5698403f * static_cast<float>(number);
-    dx = filter_offset(u - std::floor(u));
-    dy = filter_offset(v - std::floor(v));
+    const auto [u, v] = sequence.at(0, number);
+    dx = filter_offset(u);
+    dy = filter_offset(v);
   }
   sample.offset = dx * dx + dy * dy;
   const shade::CameraRay ray =

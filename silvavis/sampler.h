@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "silvavis/pixel_sequence.h"
 #include "silvavis/render.h"
 #include "silvavis/shade/surface.h"
 
@@ -59,7 +60,7 @@ class Sampler {
     float draws[4] = {};
   };
 
-  Sample sample_of(const Pixel& pixel, int number) const;
+  Sample sample_of(const Pixel& pixel, const PixelSequence& sequence, int number) const;
   float width_at(const Sample& sample) const;
   void meet(Sample& sample, const accel::Hit& hit) const;
   void mirror_water();

@@ -144,15 +144,24 @@ bool Surroundings::cross(const scene::Ground& ground, const accel::Ray& ray, dou
     return true;
   }
   constexpr int most_steps = 400;
-  constexpr double steep = 1.2;  // of the land around; where it is steeper a ray may pass a rim that it should meet
+  constexpr double steep = 0.6;  // of the land around; where it is steeper a ray may pass a rim that it should meet
   for (int step = 0; step < most_steps && last < to_m; ++step) {
     const double t = std::min(to_m, last + std::max(gap / (steep + std::abs(rise)), spread_m_ / 200));
     const double next = above(t);
     if (next < 0) {
-      double high = last, low = t;
-      for (int k = 0; k < 24; ++k) {
-        const double middle = 0.5 * (high + low);
-        (above(middle) < 0 ? low : high) = middle;
+      // Where the line between both crosses, a few times; the end that stays counts half (the Illinois rule).
+      double high = last, low = t, over = gap, under = next;
+      for (int k = 0; k < 12; ++k) {
+        const double middle = high + (low - high) * over / (over - under);
+        const double there = above(middle);
+        const bool is_over = there >= 0;
+        (is_over ? high : low) = middle;
+        (is_over ? over : under) = there;
+        (is_over ? under : over) *= 0.5;
+        if (std::abs(there) < 0.005 + 1e-6 * middle) {
+          high = middle;
+          break;
+        }
       }
       point.distance_m = high;
       return true;

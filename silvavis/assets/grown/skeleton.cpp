@@ -125,10 +125,12 @@ class Grower {
     const Axis& axis = skeleton_.axes[static_cast<std::size_t>(stem)];
     const V3 top = skeleton_.nodes[axis.first + axis.count - 1].position;
     const float stretch = height_ * top_share() / std::max(top.z, 0.1f * height_);
+    // In a stand most stems are nearly straight, some are not.
+    const float crooked = mix(0.2f, 0.8f, draws_.share() * draws_.share());
     for (std::uint32_t i = 0; i < axis.count; ++i) {
       V3& p = skeleton_.nodes[axis.first + i].position;
       const float s = p.z / std::max(top.z, 0.1f * height_);
-      p = V3(p.x - 0.8f * top.x * s, p.y - 0.8f * top.y * s, p.z * stretch);
+      p = V3(crooked * (p.x - 0.8f * top.x * s), crooked * (p.y - 0.8f * top.y * s), p.z * stretch);
     }
     if (form_.tip_droop > 0) {
       // The leader hangs over: the last nodes go sideways and down.
