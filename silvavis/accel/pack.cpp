@@ -124,7 +124,10 @@ void* create_leaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pr
 // of the tree can have, from the bottom up (Ylitie, Karras and Laine 2017, section 3; here leaves are given).
 class Collapse {
  public:
-  Collapse(const Built* root, const Bounds& bounds) { root_ = add(root, bounds); }
+  Collapse(const Built* root, const Bounds& bounds) {
+    places_.reserve(count(root));
+    root_ = add(root, bounds);
+  }
 
   struct Child {
     const Built* built;
@@ -135,7 +138,7 @@ class Collapse {
   std::vector<Child> children_of(std::uint32_t index) const {
     std::vector<Child> children;
     const Place& place = places_[index];
-    if (place.built->leaf) return {{place.built, &place.bounds, index}};  // a model of one block
+    if (place.built->leaf) return {{place.built, place.bounds, index}};  // a model of one block
     gather(place.first, place.split[scene::node_size - 1], children);
     gather(place.second, static_cast<std::uint8_t>(scene::node_size - place.split[scene::node_size - 1]), children);
     return children;
@@ -146,11 +149,17 @@ class Collapse {
  private:
   struct Place {
     const Built* built = nullptr;
-    Bounds bounds;
+    const Bounds* bounds = nullptr;                      // in the builder's memory
     std::uint32_t first = 0, second = 0;                 // children
     std::array<float, scene::node_size> cost{};          // [places - 1]
     std::array<std::uint8_t, scene::node_size> split{};  // how many places the first child takes; 0: a node of its own
   };
+
+  static std::size_t count(const Built* built) {
+    if (built->leaf) return 1;
+    const auto& children = static_cast<const BuiltNode&>(*built).children;
+    return 1 + count(children[0]) + count(children[1]);
+  }
 
   static float area(const Bounds& b) {
     const V3 size = b.most - b.least;
@@ -160,7 +169,7 @@ class Collapse {
   std::uint32_t add(const Built* built, const Bounds& bounds) {
     Place place;
     place.built = built;
-    place.bounds = bounds;
+    place.bounds = &bounds;
     if (built->leaf) {
       ++leaves_;
     } else {
@@ -192,7 +201,7 @@ class Collapse {
   void gather(std::uint32_t index, std::uint8_t places, std::vector<Child>& children) const {
     const Place& place = places_[index];
     if (place.built->leaf || places == 1 || place.split[places - 1u] == 0) {
-      children.push_back({place.built, &place.bounds, index});
+      children.push_back({place.built, place.bounds, index});
       return;
     }
     gather(place.first, place.split[places - 1u], children);
@@ -316,7 +325,8 @@ class Packer {
     }
     primitives = {};
     {
-      const Collapse collapse(root, {to_.least, to_.most});
+      const Bounds whole{to_.least, to_.most};
+      const Collapse collapse(root, whole);
       to_.blocks.reserve(collapse.leaves());
       to_.normals.reserve(collapse.leaves() * scene::block_size);
       to_.nodes.resize(1);
