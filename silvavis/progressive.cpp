@@ -171,11 +171,7 @@ void Progressive::begin(int stride) {
     enlarged_ = true;
     blocks_.clear();
     for (int top = 0; top < height; top += side_px) {
-      for (int left = 0; left < width; left += side_px) {
-        std::vector<Pixel>& block = blocks_.emplace_back();
-        for (int y = top; y < std::min(top + side_px, height); ++y)
-          for (int x = left; x < std::min(left + side_px, width); ++x) block.push_back({x, y});
-      }
+      for (int left = 0; left < width; left += side_px) blocks_.push_back(square_of(left, top, side_px, width, height));
     }
     begin_pass();
   }
@@ -226,9 +222,7 @@ void Progressive::work(Seconds until) {
 void Progressive::fill_squares(Sampler& sampler, std::size_t block) {
   const int across = parts(finer_squares_.width, side_px);
   const int left = static_cast<int>(block) % across * side_px, top = static_cast<int>(block) / across * side_px;
-  std::vector<Pixel> pixels;
-  for (int y = top; y < std::min(top + side_px, finer_squares_.height); ++y)
-    for (int x = left; x < std::min(left + side_px, finer_squares_.width); ++x) pixels.push_back({x, y});
+  std::vector<Pixel> pixels = square_of(left, top, side_px, finer_squares_.width, finer_squares_.height);
   std::vector<std::size_t> all(pixels.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   sampler.add(pixels, all, 1);

@@ -13,9 +13,7 @@ namespace {
 
 // All samples of a block of pixels.
 void fill(Sampler& sampler, const RenderOptions& options, int left, int top, image::Image& colour) {
-  std::vector<Pixel> pixels;
-  for (int y = top; y < std::min(top + block_px, options.camera.height); ++y)
-    for (int x = left; x < std::min(left + block_px, options.camera.width); ++x) pixels.push_back({x, y});
+  std::vector<Pixel> pixels = square_of(left, top, block_px, options.camera.width, options.camera.height);
   std::vector<std::size_t> open(pixels.size());
   for (std::size_t i = 0; i < open.size(); ++i) open[i] = i;
   while (!open.empty()) {

@@ -1,6 +1,7 @@
 #include "silvavis/sampler.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -41,6 +42,22 @@ float fresnel_of_water(float cosine) {
 double lift(double distance_m) { return 2e-3 + 1e-6 * distance_m; }
 
 }  // namespace
+
+std::vector<Pixel> square_of(int left, int top, int side_px, int width, int height) {
+  const auto even_bits = [](unsigned code) {
+    int value = 0;
+    for (unsigned bit = 0; code >> (2 * bit) != 0; ++bit) value |= static_cast<int>(code >> (2 * bit) & 1) << bit;
+    return value;
+  };
+  const unsigned side = std::bit_ceil(static_cast<unsigned>(side_px));
+  std::vector<Pixel> pixels;
+  for (unsigned code = 0; code < side * side; ++code) {
+    const int column = even_bits(code), row = even_bits(code >> 1);
+    if (column < std::min(side_px, width - left) && row < std::min(side_px, height - top))
+      pixels.push_back({left + column, top + row});
+  }
+  return pixels;
+}
 
 bool has_enough(const Pixel& pixel, const RenderOptions& options) {
   if (pixel.samples >= options.samples) return true;

@@ -30,6 +30,9 @@ struct Pixel {
   Rgb mean() const { return sum / static_cast<float>(samples); }
 };
 
+// The pixels of a square of the picture. Neighbours follow each other (Morton 1966), since their rays are traced together.
+std::vector<Pixel> square_of(int left, int top, int side_px, int width, int height);
+
 // Whether render() takes no more samples. Asked elsewhere than after a pass it says no until all are taken.
 bool has_enough(const Pixel& pixel, const RenderOptions& options);
 

@@ -90,7 +90,9 @@ Json dump_ground(const scene::Scene& scene, const shade::Land& land, const fs::p
   for (int row = 0; row < ground.rows; ++row) {
     for (int column = 0; column < ground.columns; ++column) {
       const double x = ground.west + column * ground.cell_x_m, y = ground.south + row * ground.cell_y_m;
-      const Rgb colour = shade::land_colour(land, x, y, scene::ground_normal(ground, x, y));
+      const Rgb colour =
+          shade::land_colour(land, x, y, scene::ground_normal(ground, x, y),
+                             static_cast<double>(ground.at(column, row)), shade::crowns_over(scene, x, y));
       colours.insert(colours.end(), {colour.x, colour.y, colour.z});
     }
   }
@@ -139,9 +141,9 @@ void dump(const scene::Scene& scene, const Light& light, const shade::Land& land
   json["origin"] = {scene.origin.x, scene.origin.y};
   json["crs_wkt"] = scene.crs_wkt;
   json["sun"] = {{"direction", numbers(light.sky.sun_direction())},
-                 {"irradiance", numbers(light.sky.sun_irradiance())},
-                 {"from_above", numbers(light.sky.irradiance(V3(0, 0, 1)))},
-                 {"from_below", numbers(light.sky.irradiance(V3(0, 0, -1)))},
+                 {"irradiance", numbers(light.over_land.sun_irradiance())},
+                 {"from_above", numbers(light.over_land.irradiance(V3(0, 0, 1)))},
+                 {"from_below", numbers(light.over_land.irradiance(V3(0, 0, -1)))},
                  {"horizon", numbers(light.sky.radiance(V3(0, 1, 0.1f).normalized()))}};
   for (std::size_t view = 0; view < views.size(); ++view) {
     const shade::Camera camera = camera_of(scene, view);

@@ -188,7 +188,7 @@ HWY_INLINE void walk_pyramid_together(const scene::Pyramid& pyramid, Bundle& bun
     const V8 least_ix = hn::Set(f8, bundle.least_ix), most_ix = hn::Set(f8, bundle.most_ix),
              least_iy = hn::Set(f8, bundle.least_iy), most_iy = hn::Set(f8, bundle.most_iy);
     const V8 least_dz = hn::Set(f8, bundle.least_dz), most_dz = hn::Set(f8, bundle.most_dz);
-    const V8 step = hn::Set(f8, pyramid.step_m), origin = hn::Set(f8, pyramid.origin_m), slack = hn::Set(f8, slack_m);
+    const V8 step = hn::Set(f8, pyramid.step_m), origin = hn::Set(f8, pyramid.origin_m);
     HWY_ALIGN float nears[16];
     HWY_ALIGN float fars[16];
     HWY_ALIGN float lows[16];
