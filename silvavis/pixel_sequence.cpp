@@ -1,5 +1,7 @@
 #include "silvavis/pixel_sequence.h"
 
+#include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace silvavis {
@@ -60,16 +62,32 @@ float scrambled(std::uint32_t bits, std::uint32_t seed) {
   return static_cast<float>(reversed(x) >> 8) * 0x1p-24f;
 }
 
+std::uint64_t along_curve(int x, int y) {
+  return spread(static_cast<std::uint32_t>(x)) | spread(static_cast<std::uint32_t>(y)) << 1;
+}
+
 }  // namespace
 
-PixelSequence::PixelSequence(std::uint64_t seed, int x, int y, int most_samples)
-    : pixel_(spread(static_cast<std::uint32_t>(x)) | spread(static_cast<std::uint32_t>(y)) << 1) {
+PixelSequence::PixelSequence(std::uint64_t seed, int x, int y, int most_samples) : pixel_(along_curve(x, y)) {
   while ((std::int64_t{1} << (2 * digits_)) < most_samples) ++digits_;
-  for (std::size_t k = 0; k < pairs; ++k) {
-    Pair& pair = of_[k];
-    pair.seed = static_cast<std::uint32_t>(mixed(seed * 0xD1B54A32D192ED03u + k + 1));
+  for (std::size_t k = 0; k < pairs; ++k)
+    of_[k].seed = static_cast<std::uint32_t>(mixed(seed * 0xD1B54A32D192ED03u + k + 1));
+  shuffle_from(15 - digits_);
+}
+
+void PixelSequence::move_to(int x, int y) {
+  const std::uint64_t to = along_curve(x, y), other = pixel_ ^ to;
+  pixel_ = to;
+  // Digits above the first that is another stay as they are.
+  if (other != 0) shuffle_from(std::min(15 - digits_, (static_cast<int>(std::bit_width(other)) - 1) / 2));
+}
+
+// Anew from this digit of the pixel's index down.
+void PixelSequence::shuffle_from(int highest) {
+  for (Pair& pair : of_) {
     // 32 bits of index are left for the sequence: pictures of up to 2^32 samples, and larger ones repeat.
-    for (int digit = 15 - digits_; digit >= 0; --digit) {
+    pair.index &= ~std::uint64_t{0} << (2 * (highest + 1));
+    for (int digit = highest; digit >= 0; --digit) {
       const std::uint64_t above = pixel_ >> (2 * digit + 2);
       pair.index |=
           shuffled_digit(pixel_ >> (2 * digit) & 3, above << 5 | static_cast<std::uint64_t>(digit + digits_), pair.seed)

@@ -71,7 +71,14 @@ bool has_enough(const Pixel& pixel, const RenderOptions& options) {
 
 Sampler::Sampler(const scene::Scene& scene, const accel::Tracer& tracer, const Light& light, const shade::Land& land,
                  const RenderOptions& options, const shade::Lens& lens, image::Frame* channels)
-    : scene_(scene), tracer_(tracer), light_(light), land_(land), options_(options), lens_(lens), channels_(channels) {
+    : scene_(scene),
+      tracer_(tracer),
+      light_(light),
+      land_(land),
+      options_(options),
+      lens_(lens),
+      channels_(channels),
+      sequence_(options.seed, 0, 0, options.samples) {
   // What a surface sees where its way to the sky is barred: leaves and ground in half shade.
   const shade::Sky& sky = light.over_land;
   const Rgb lit = sky.sun_irradiance() * std::max(sky.sun_direction().z, 0.0f) + sky.sky_irradiance();
@@ -85,9 +92,9 @@ void Sampler::add(std::span<Pixel> pixels, std::span<const std::size_t> open, in
   samples_.clear();
   for (const std::size_t i : open) {
     const int more = std::min(count, options_.samples - pixels[i].samples);
-    const PixelSequence sequence(options_.seed, pixels[i].x, pixels[i].y, options_.samples);
+    sequence_.move_to(pixels[i].x, pixels[i].y);
     for (int k = 0; k < more; ++k) {
-      samples_.push_back(sample_of(pixels[i], sequence, pixels[i].samples + k));
+      samples_.push_back(sample_of(pixels[i], pixels[i].samples + k));
       samples_.back().pixel = i;
     }
   }
@@ -122,18 +129,18 @@ void Sampler::meet(Sample& sample, const accel::Hit& hit) const {
   }
 }
 
-Sampler::Sample Sampler::sample_of(const Pixel& pixel, const PixelSequence& sequence, int number) const {
+Sampler::Sample Sampler::sample_of(const Pixel& pixel, int number) const {
   silvasim::base::Stream random(options_.seed, silvasim::base::Purpose::picture, static_cast<std::uint32_t>(pixel.x),
                                 static_cast<std::uint32_t>(pixel.y), static_cast<std::uint32_t>(number));
   Sample sample;
-  const auto [sky_u, sky_v] = sequence.at(1, number);
+  const auto [sky_u, sky_v] = sequence_.at(1, number);
   sample.draws[0] = sky_u;
   sample.draws[1] = sky_v;
   sample.draws[2] = random.next_float();
   sample.draws[3] = random.next_float();
   float dx = 0, dy = 0;
   if (options_.samples > 1) {
-    const auto [u, v] = sequence.at(0, number);
+    const auto [u, v] = sequence_.at(0, number);
     dx = filter_offset(u);
     dy = filter_offset(v);
   }

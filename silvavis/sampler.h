@@ -63,7 +63,7 @@ class Sampler {
     float draws[4] = {};
   };
 
-  Sample sample_of(const Pixel& pixel, const PixelSequence& sequence, int number) const;
+  Sample sample_of(const Pixel& pixel, int number) const;
   float width_at(const Sample& sample) const;
   void meet(Sample& sample, const accel::Hit& hit) const;
   void mirror_water();
@@ -79,6 +79,7 @@ class Sampler {
   const RenderOptions& options_;
   const shade::Lens lens_;
   image::Frame* const channels_;
+  PixelSequence sequence_;
   Rgb surroundings_{0, 0, 0};
   float eye_height_ = 0, horizon_m_ = 0;
   std::vector<Sample> samples_;

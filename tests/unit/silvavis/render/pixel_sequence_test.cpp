@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace silvavis {
@@ -42,6 +43,27 @@ TEST(PixelSequence, StratifiesThePixelAndItsNeighbours) {
         cells.insert(static_cast<int>(u * 4) * 4 + static_cast<int>(v * 4));
       }
     EXPECT_EQ(cells.size(), 16u);
+  }
+}
+
+TEST(PixelSequence, IsTheSameWhereverItCameFrom) {
+  for (const int samples : {1, 4, 16, 100}) {
+    PixelSequence moving(5, 3, 3, samples);
+    for (const auto& [x, y] : std::vector<std::pair<int, int>>{{3, 3},
+                                                               {4, 3},
+                                                               {3, 4},
+                                                               {1919, 1079},
+                                                               {0, 0},
+                                                               {15, 16},
+                                                               {16, 15},
+                                                               {30000, 7},
+                                                               {65535, 65535},
+                                                               {70000, 1}}) {
+      moving.move_to(x, y);
+      const PixelSequence anew(5, x, y, samples);
+      for (std::size_t pair = 0; pair < PixelSequence::pairs; ++pair)
+        for (int k = 0; k < samples; ++k) EXPECT_EQ(moving.at(pair, k), anew.at(pair, k)) << x << ", " << y;
+    }
   }
 }
 
