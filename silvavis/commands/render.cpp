@@ -33,8 +33,6 @@ shade::Camera camera_for(const RenderOptions& options, const scene::Scene& scene
     camera.fov_deg = named.fov_deg;
     return camera;
   }
-  if (options.eye.empty() != options.look_at.empty())
-    throw ConfigError({"command line", 0, 0}, "--eye and --look-at belong together");
   if (options.eye.empty()) {
     shade::FitOptions fit;
     fit.fov_deg = options.fov_deg;
@@ -46,6 +44,19 @@ shade::Camera camera_for(const RenderOptions& options, const scene::Scene& scene
   camera.look_at = world_point(scene, options.look_at, "--look-at");
   camera.fov_deg = options.fov_deg;
   return camera;
+}
+
+// Of the options of camera_for(), what can be known without the scene.
+void check_camera(const RenderOptions& options) {
+  shade::Camera camera;
+  parse_size(options.size, camera.width, camera.height);
+  if (options.eye.empty() != options.look_at.empty())
+    throw ConfigError({"command line", 0, 0}, "--eye and --look-at belong together");
+  if (options.eye.empty()) return;
+  scene::Scene flat;
+  flat.ground = scene::make_ground({}, {0, 0, 1, 1}, {0, 0});
+  world_point(flat, options.eye, "--eye");
+  world_point(flat, options.look_at, "--look-at");
 }
 
 shade::HazeOptions haze_for(const RenderOptions& options, const Stage& stage, const V3d& eye) {
@@ -123,6 +134,7 @@ std::map<std::string, std::string> metadata_of(const Stage& stage, const shade::
 void render(const RenderOptions& options) {
   const Common& common = options.stage.common;
   const silvasim::base::ThreadLimit threads(common.threads);
+  check_camera(options);
   image::WriteOptions write;
   write.exposure_stops = options.exposure_stops;
   write.inputs = inputs_of(options.stage);

@@ -175,14 +175,16 @@ double mean_height(const scene::Ground& ground) {
 
 std::unique_ptr<Stage> set_stage(const StageOptions& options, const silvasim::base::Progress& progress) {
   auto stage = std::make_unique<Stage>();
+  // What is wrong with the options is said before anyone waits for models.
+  FloraOptions flora_options;
+  flora_options.overrides = overrides(options.model);
+  if (options.sun_direction.empty() && !options.sun.empty()) shade::parse_moment(options.sun);
   auto mark = std::chrono::steady_clock::now();
   silvasim::ecosystem::Ecosystem ecosystem = silvasim::ecosystem::read(options.ecosystem, progress);
   stage->seconds.read = seconds_since(mark);
   const silvasim::fields::FrameReport frame = silvasim::fields::report_frame({ecosystem.crs_wkt, "", ecosystem.extent});
 
-  FloraOptions flora_options;
   flora_options.folder = options.models ? *options.models : options.ecosystem.parent_path();
-  flora_options.overrides = overrides(options.model);
   flora_options.layers = options.layers;
   flora_options.triangles = options.triangles;
   flora_options.variants = options.variants;
