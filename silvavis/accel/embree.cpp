@@ -1,6 +1,5 @@
 #include "silvavis/accel/embree.h"
 
-#include <embree3/rtcore.h>
 #include <pmmintrin.h>
 #include <xmmintrin.h>
 
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "silvasim/base/error.h"
+#include "silvavis/accel/embree_device.h"
 #include "silvavis/scene/instance.h"
 
 namespace silvavis::accel {
@@ -95,10 +95,8 @@ class Flatland final : public Tracer {
  public:
   Flatland(const scene::Scene& scene, Flat flat)
       : scene_(scene), exact_(flat == Flat::exact), packets_(flat == Flat::packets) {
-    device_ = rtcNewDevice(nullptr);
-    if (!device_) throw silvasim::base::Error("Embree cannot start on this machine");
-    rtcSetDeviceMemoryMonitorFunction(device_, count_bytes, &bytes_);
-    top_ = rtcNewScene(device_);
+    rtcSetDeviceMemoryMonitorFunction(device_.get(), count_bytes, &bytes_);
+    top_ = rtcNewScene(device_.get());
     add_ground();
     for (const auto& model : scene_.models) models_.push_back(make_model(*model));
     list_plants();
@@ -111,7 +109,6 @@ class Flatland final : public Tracer {
   ~Flatland() override {
     rtcReleaseScene(top_);
     for (RTCScene model : models_) rtcReleaseScene(model);
-    rtcReleaseDevice(device_);
   }
 
   void nearest(std::span<const Ray> rays, std::span<Hit> hits) const override {
@@ -143,7 +140,7 @@ class Flatland final : public Tracer {
   }
 
   void check() const {
-    if (rtcGetDeviceError(device_) != RTC_ERROR_NONE)
+    if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE)
       throw silvasim::base::Error(
           "Embree could not build the scene; it takes about 0.5 kB a plant, --backend nested far less");
   }
@@ -250,7 +247,7 @@ class Flatland final : public Tracer {
 
   void add_ground() {
     const scene::Ground& ground = scene_.ground;
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     const auto columns = static_cast<std::size_t>(ground.columns), rows = static_cast<std::size_t>(ground.rows);
     auto* vertices = static_cast<float*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, columns * rows));
@@ -276,8 +273,8 @@ class Flatland final : public Tracer {
   }
 
   RTCScene make_model(const scene::PlantModel& model) {
-    RTCScene scene = rtcNewScene(device_);
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    RTCScene scene = rtcNewScene(device_.get());
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     // Corners at the same place share a vertex. Triangle numbers are slots; empty slots are triangles without area.
     std::unordered_map<std::uint64_t, std::uint32_t> numbers;
     std::vector<V3> vertices;
@@ -332,7 +329,7 @@ class Flatland final : public Tracer {
   void add_plants_as_instances() {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const scene::Instance plant = instance_of(places_[i]);
-      RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_INSTANCE);
+      RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
       rtcSetGeometryInstancedScene(geometry, models_[plant.model]);
       const float c = plant.turn.cosine * plant.scale, s = plant.turn.sine * plant.scale;
       const float matrix[12] = {c,
@@ -355,7 +352,7 @@ class Flatland final : public Tracer {
   }
 
   void add_plants_as_primitives() {
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_USER);
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned int>(places_.size()));
     rtcSetGeometryUserData(geometry, this);
     rtcSetGeometryBoundsFunction(geometry, bound_plant, this);
@@ -459,11 +456,11 @@ class Flatland final : public Tracer {
 
   const scene::Scene& scene_;
   bool exact_, packets_;
-  RTCDevice device_ = nullptr;
+  mutable std::int64_t bytes_ = 0;  // counted by the device to its end
+  EmbreeDevice device_;
   RTCScene top_ = nullptr;
   std::vector<RTCScene> models_;
   std::vector<Place> places_;
-  mutable std::int64_t bytes_ = 0;
 };
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "silvavis/accel/pack.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "silvasim/base/error.h"
+#include "silvavis/accel/embree_device.h"
 
 namespace silvavis::accel {
 
@@ -213,20 +212,6 @@ class Collapse {
   std::size_t leaves_ = 0;
 };
 
-class Device {
- public:
-  Device() : device_(rtcNewDevice(nullptr)) {
-    if (!device_) throw silvasim::base::Error("Embree cannot start on this machine");
-  }
-  Device(const Device&) = delete;
-  Device& operator=(const Device&) = delete;
-  ~Device() { rtcReleaseDevice(device_); }
-  RTCDevice get() const { return device_; }
-
- private:
-  RTCDevice device_;
-};
-
 class Packer {
  public:
   Packer(const assets::Model& from, PlantModel& to) : from_(from), to_(to), triangles_(quantised(from, to)) {}
@@ -294,7 +279,7 @@ class Packer {
   }
 
   void build() {
-    const Device device;
+    const EmbreeDevice device;
     std::vector<RTCBuildPrimitive> primitives(triangles_.size());
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
       Bounds box;
