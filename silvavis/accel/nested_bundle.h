@@ -43,7 +43,7 @@ struct Bundle {
 };
 
 // Whether two rays walk together: over the ground in the same quarter of the compass and within some degrees, and from
-// origins no farther apart than what is met at the end of the walk is wide.
+// origins no farther apart than `apart_m`.
 HWY_INLINE bool alike(const Ray& a, const Ray& b, double apart_m) {
   return (a.direction.x < 0) == (b.direction.x < 0) && (a.direction.y < 0) == (b.direction.y < 0) &&
          a.direction.x * b.direction.x + a.direction.y * b.direction.y + a.direction.z * b.direction.z > 0.995f &&

@@ -52,11 +52,9 @@ void check_camera(const RenderOptions& options) {
   parse_size(options.size, camera.width, camera.height);
   if (options.eye.empty() != options.look_at.empty())
     throw ConfigError({"command line", 0, 0}, "--eye and --look-at belong together");
-  scene::Scene flat;
-  flat.crs_wkt = "EPSG:4326";  // any that takes degrees
-  flat.ground = scene::make_ground({}, {0, 0, 1, 1}, {0, 0});
-  if (!options.camera.empty()) camera_from(options.camera, flat);
   if (options.eye.empty()) return;
+  scene::Scene flat;
+  flat.ground = scene::make_ground({}, {0, 0, 1, 1}, {0, 0});
   world_point(flat, options.eye, "--eye");
   world_point(flat, options.look_at, "--look-at");
 }
