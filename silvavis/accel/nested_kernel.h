@@ -42,6 +42,19 @@ struct Leaves {
     return column >= 0 && row >= 0 && column < layer.columns && row < layer.rows;
   }
 
+  // A tile position's plants, which are asked for soon.
+  HWY_INLINE void prefetch(int node_column, int node_row) const {
+    const int column = node_column + first_column, row = node_row + first_row;
+    if (!has_tile(column, row)) return;
+    const std::size_t position = layer.position(column, row);
+    hwy::Prefetch(&layer.tiles[position]);
+    hwy::Prefetch(&layer.base_m[position]);
+    hwy::Prefetch(&layer.step_m[position]);
+    const std::uint64_t first = layer.first_slot[position], end = layer.first_slot[position + 1];
+    for (std::uint64_t slot = first; slot < end; slot += 64) hwy::Prefetch(layer.plant_species.data() + slot);
+    for (std::uint64_t slot = first; slot < end; slot += 32) hwy::Prefetch(layer.plant_heights.data() + slot);
+  }
+
   HWY_INLINE bool cross(const LayerWalk<any_hit>& walk, int node_column, int node_row, Crossing& crossing) const {
     crossing.box = walk.whole_ray(node_column, node_row);
     if (k == 0) return narrow_land(scene.land, walk.flat, crossing.box, crossing.ground_near, crossing.ground_far);
@@ -135,6 +148,7 @@ HWY_INLINE void trace_bundle(const scene::Scene& scene, Bundle& bundle, const Ra
       walks.make(i, scene, leaves.layer, static_cast<std::uint8_t>(k), rays[i], bundle.flats[i],
                  scene::ray_hash(rays[i].origin, rays[i].direction), bundle.bests[i], hits[i], false);
     const auto leaf = [&](std::uint32_t here, float near, int column, int row) HWY_ATTR {
+      leaves.prefetch(column, row);
       if (std::popcount(here) >= together_least && bundle.apart + near * bundle.part < packet_width_m) {
         for (std::uint32_t done = leaves.meet(walks.values(), here, column, row); done != 0; done &= done - 1)
           bundle.bests[std::countr_zero(done)] = answered;

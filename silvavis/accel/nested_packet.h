@@ -286,10 +286,10 @@ struct PacketWalk {
       if (distance_of(entry) > most) continue;
       HWY_ALIGN float nears[16];
       // Bits of the boxes that any ray may cross.
-      const auto crossed = [&](const float* least_x, const float* most_x, const float* least_y,
-                               const float* most_y) HWY_ATTR {
+      const auto crossed = [&](const float* least_x, const float* most_x, const float* least_y, const float* most_y,
+                               std::size_t count) HWY_ATTR {
         std::uint32_t hits = 0;
-        for (std::size_t k = 0; k < 16; k += hn::Lanes(f8)) {
+        for (std::size_t k = 0; k < count; k += hn::Lanes(f8)) {
           const V8 west = hn::LoadU(f8, least_x + k), east = hn::LoadU(f8, most_x + k),
                    south = hn::LoadU(f8, least_y + k), north = hn::LoadU(f8, most_y + k);
           const V8 near =
@@ -302,9 +302,10 @@ struct PacketWalk {
         return hits;
       };
       if (is_leaf(entry)) {
-        const std::size_t slot0 = std::size_t{index_of(entry)} * 16;
+        const scene::SiteLeaf leaf = scene::SiteLeaf::of(index_of(entry));
+        const std::size_t slot0 = leaf.first_slot;
         HWY_ALIGN float bounds[4][16];
-        for (std::size_t k = 0; k < 16; k += hn::Lanes(f8)) {
+        for (std::size_t k = 0; k < leaf.slots; k += hn::Lanes(f8)) {
           const V8 east = hn::LoadU(f8, tile.x_m.data() + slot0 + k),
                    north = hn::LoadU(f8, tile.y_m.data() + slot0 + k);
           // A hair wider than the circle, for rounding.
@@ -314,17 +315,17 @@ struct PacketWalk {
           hn::Store(hn::Sub(north, reach), f8, bounds[2] + k);
           hn::Store(hn::Add(north, reach), f8, bounds[3] + k);
         }
-        const std::uint32_t sites = crossed(bounds[0], bounds[1], bounds[2], bounds[3]);
+        const std::uint32_t sites = crossed(bounds[0], bounds[1], bounds[2], bounds[3], leaf.slots);
         if (sites != 0) meet_leaf(tile, position, column, row, packet, slot0, sites);
         continue;
       }
       const scene::SiteNode& node = tile.nodes[index_of(entry)];
       const int bottom = size;
       for (std::uint32_t hits =
-               crossed(node.least_x.data(), node.most_x.data(), node.least_y.data(), node.most_y.data());
+               crossed(node.least_x.data(), node.most_x.data(), node.least_y.data(), node.most_y.data(), 16);
            hits != 0; hits &= hits - 1) {
         const auto child = static_cast<std::uint32_t>(std::countr_zero(hits));
-        insert(stack, size, bottom, waiting(nears[child], node.first + child, node.above_leaves));
+        insert(stack, size, bottom, waiting(nears[child], node.children[child], node.above_leaves));
       }
     }
   }

@@ -15,7 +15,7 @@ namespace silvavis::accel::HWY_NAMESPACE {
 
 constexpr float site_slack_m = 0.02f;  // of the heights between which a plant can stand
 
-// Where a ray enters the circles of sixteen sites, how far it passes from their middles and how low above their feet.
+// Where a ray enters the circles of a leaf's sites, how far it passes from their middles and how low above their feet.
 struct SiteCrossings {
   HWY_ALIGN float nears[16];
   HWY_ALIGN float besides[16];
@@ -87,7 +87,7 @@ struct LayerWalk {
       const float most = limit(r);
       if (distance_of(entry) > most) continue;
       if (is_leaf(entry)) {
-        walk_leaf(tile, position, column, row, r, index_of(entry));
+        walk_leaf(tile, position, column, row, r, scene::SiteLeaf::of(index_of(entry)));
         if (any_hit && found) return;
         continue;
       }
@@ -115,28 +115,28 @@ struct LayerWalk {
       while (hits != 0) {
         const auto child = static_cast<std::uint32_t>(std::countr_zero(hits));
         hits &= hits - 1;
-        if (node.above_leaves) prefetch_leaf(position, node.first + child);
-        insert(stack, size, bottom, waiting(nears[child], node.first + child, node.above_leaves));
+        if (node.above_leaves) prefetch_leaf(position, node.children[child]);
+        insert(stack, size, bottom, waiting(nears[child], node.children[child], node.above_leaves));
       }
     }
   }
 
-  HWY_INLINE void prefetch_leaf(std::size_t position, std::uint32_t leaf) const {
-    const std::size_t slot = layer.first_slot[position] + static_cast<std::size_t>(leaf) * 16;
+  HWY_INLINE void prefetch_leaf(std::size_t position, std::uint32_t packed) const {
+    const std::size_t slot = layer.first_slot[position] + scene::SiteLeaf::of(packed).first_slot;
     hwy::Prefetch(layer.plant_species.data() + slot);
     hwy::Prefetch(layer.plant_heights.data() + slot);
   }
 
-  // Sixteen sites: the circle that each plant can reach, and the heights between which it can stand. Bits of those that the ray
+  // A leaf's sites: the circle that each plant can reach, and the heights between which it can stand. Bits of those that the ray
   // crosses.
   HWY_INLINE std::uint32_t cross_leaf(const scene::TileSites& tile, std::size_t position, const TileRay& r,
-                                      std::uint32_t leaf, SiteCrossings& crossings) const {
-    const std::size_t slot0 = static_cast<std::size_t>(leaf) * 16;
+                                      scene::SiteLeaf leaf, SiteCrossings& crossings) const {
+    const std::size_t slot0 = leaf.first_slot;
     const std::uint16_t* const heights = layer.plant_heights.data() + layer.first_slot[position] + slot0;
     const float hx = flat.ahead_x, hy = flat.ahead_y, per_run = flat.per_run;
     std::uint32_t hits = 0;
     const V8 zero = hn::Zero(f8), least = hn::Set(f8, r.least), most = hn::Set(f8, limit(r));
-    for (std::size_t k = 0; k < 16; k += hn::Lanes(f8)) {
+    for (std::size_t k = 0; k < leaf.slots; k += hn::Lanes(f8)) {
       const V8 px = hn::Sub(hn::LoadU(f8, tile.x_m.data() + slot0 + k), hn::Set(f8, r.x));
       const V8 py = hn::Sub(hn::LoadU(f8, tile.y_m.data() + slot0 + k), hn::Set(f8, r.y));
       const V8 reach = hn::LoadU(f8, tile.reach_m.data() + slot0 + k);
@@ -168,8 +168,8 @@ struct LayerWalk {
   }
 
   HWY_INLINE void walk_leaf(const scene::TileSites& tile, std::size_t position, int column, int row, const TileRay& r,
-                            std::uint32_t leaf) {
-    const std::size_t slot0 = static_cast<std::size_t>(leaf) * 16;
+                            scene::SiteLeaf leaf) {
+    const std::size_t slot0 = leaf.first_slot;
     const std::uint8_t* const species = layer.plant_species.data() + layer.first_slot[position] + slot0;
     SiteCrossings crossings;
     std::uint32_t hits = cross_leaf(tile, position, r, leaf, crossings);

@@ -22,13 +22,23 @@ namespace silvavis::scene {
 inline constexpr std::uint8_t no_species = 255;
 inline constexpr int quarters = 4;  // of a tile position, along each side
 
-// A Wang tile's sites in the order of its tree's leaves, sixteen a leaf. Columns are padded to whole leaves with sites of
-// negative radius.
+// A Wang tile's sites in the order of its tree's leaves, eight or sixteen a leaf. Columns are padded to whole leaves with
+// sites of negative radius.
 struct SiteNode {
   // Of up to sixteen children, in tile space, grown by the plants' reach; least_x > most_x: no child.
   std::array<float, 16> least_x, most_x, least_y, most_y;
-  std::uint32_t first = 0;  // child nodes, or leaves, one after another
+  std::array<std::uint32_t, 16> children{};  // nodes, or leaves as SiteLeaf packs them
   bool above_leaves = false;
+};
+struct SiteLeaf {
+  static constexpr std::uint32_t least_slots = 8;
+
+  std::uint32_t first_slot = 0, slots = least_slots;  // least_slots or twice that, and a multiple of least_slots
+
+  std::uint32_t packed() const { return first_slot / least_slots << 1 | (slots > least_slots ? 1u : 0u); }
+  static SiteLeaf of(std::uint32_t packed) {
+    return {(packed >> 1) * least_slots, (packed & 1) != 0 ? 2 * least_slots : least_slots};
+  }
 };
 struct TileSites {
   std::uint32_t count = 0;

@@ -8,7 +8,7 @@ namespace silvavis::scene {
 
 namespace {
 
-constexpr std::uint32_t leaf = 16;
+constexpr std::uint32_t leaf = SiteLeaf::least_slots;
 
 struct Range {
   std::uint32_t first = 0, last = 0;  // of `order`
@@ -55,7 +55,7 @@ struct Builder {
   // Fills nodes[index] for the range.
   void build(std::uint32_t index, Range range, float most_reach) {
     std::vector<Range> children{range};
-    // Cut the largest part until there are sixteen, or none is more than a leaf.
+    // Cut the largest part until there are sixteen, or all are the smallest leaves.
     while (children.size() < 16) {
       const auto largest = std::max_element(children.begin(), children.end(),
                                             [](const Range& a, const Range& b) { return a.count() < b.count(); });
@@ -65,7 +65,7 @@ struct Builder {
       children.insert(largest + 1, high);
     }
     const bool above_leaves =
-        std::all_of(children.begin(), children.end(), [](const Range& child) { return child.count() <= leaf; });
+        std::all_of(children.begin(), children.end(), [](const Range& child) { return child.count() <= 2 * leaf; });
     SiteNode node;
     node.least_x.fill(std::numeric_limits<float>::max());
     node.least_y = node.least_x;
@@ -73,12 +73,14 @@ struct Builder {
     node.most_y = node.most_x;
     node.above_leaves = above_leaves;
     const auto first = static_cast<std::uint32_t>(out.nodes.size());
-    node.first = above_leaves ? range.first / leaf : first;
-    // A part that is a leaf among larger ones becomes a node with one child.
+    // A part that is a leaf among larger ones becomes a node with a few children.
     if (!above_leaves) out.nodes.resize(out.nodes.size() + children.size());
     for (std::size_t c = 0; c < children.size(); ++c) {
-      if (!above_leaves) build(first + static_cast<std::uint32_t>(c), children[c], most_reach);
-      bound(node, c, children[c], most_reach);
+      const Range& child = children[c];
+      node.children[c] = above_leaves ? SiteLeaf{child.first, child.count() > leaf ? 2 * leaf : leaf}.packed()
+                                      : first + static_cast<std::uint32_t>(c);
+      if (!above_leaves) build(node.children[c], child, most_reach);
+      bound(node, c, child, most_reach);
     }
     out.nodes[index] = node;
   }

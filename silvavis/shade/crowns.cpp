@@ -8,10 +8,10 @@ namespace silvavis::shade {
 
 namespace {
 
-void add_leaf(const scene::PlantLayer& layer, const scene::TileSites& tile, std::size_t position, std::uint32_t leaf,
+void add_leaf(const scene::PlantLayer& layer, const scene::TileSites& tile, std::size_t position, scene::SiteLeaf leaf,
               float x, float y, Crowns& crowns) {
-  const std::uint32_t first = leaf * 16, last = std::min(first + 16, tile.count);
-  for (std::uint32_t slot = first; slot < last; ++slot) {
+  const std::uint32_t last = std::min(leaf.first_slot + leaf.slots, tile.count);
+  for (std::uint32_t slot = leaf.first_slot; slot < last; ++slot) {
     const float dx = x - tile.x_m[slot], dy = y - tile.y_m[slot], radius = tile.radius_m[slot];
     const float squared = dx * dx + dy * dy, reach = std::max(1.25f * radius, radius + Crowns::gap_m);
     if (squared >= reach * reach) continue;
@@ -42,9 +42,9 @@ void add_tile(const scene::PlantLayer& layer, int column, int row, double x, dou
           v > node.most_y[child] + gap)
         continue;
       if (node.above_leaves) {
-        add_leaf(layer, tile, position, node.first + child, u, v, crowns);
+        add_leaf(layer, tile, position, scene::SiteLeaf::of(node.children[child]), u, v, crowns);
       } else {
-        waiting[count++] = node.first + child;
+        waiting[count++] = node.children[child];
       }
     }
   }

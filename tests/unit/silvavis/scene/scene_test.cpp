@@ -67,7 +67,7 @@ TEST(Pyramid, EveryNodeHoldsWhatLiesBelow) {
 }
 
 TEST(TileSites, EverySiteIsInOneLeafWithinAllItsNodes) {
-  for (const int count : {1, 16, 17, 126, 300, 5000}) {
+  for (const int count : {1, 8, 9, 16, 17, 126, 133, 256, 257, 300, 5000}) {
     auto random = random_numbers(static_cast<std::uint32_t>(count));
     silvasim::tiles::Tile tile;
     for (int i = 0; i < count; ++i)
@@ -84,12 +84,13 @@ TEST(TileSites, EverySiteIsInOneLeafWithinAllItsNodes) {
         EXPECT_LE(node.most_x[c], box[1]);
         EXPECT_GE(node.least_y[c], box[2]);
         EXPECT_LE(node.most_y[c], box[3]);
-        const std::uint32_t child = node.first + static_cast<std::uint32_t>(c);
+        const std::uint32_t child = node.children[c];
         if (!node.above_leaves) {
           visit(child, {node.least_x[c], node.most_x[c], node.least_y[c], node.most_y[c]});
           continue;
         }
-        for (std::uint32_t slot = child * 16; slot < child * 16 + 16; ++slot) {
+        const SiteLeaf leaf = SiteLeaf::of(child);
+        for (std::uint32_t slot = leaf.first_slot; slot < leaf.first_slot + leaf.slots; ++slot) {
           if (sites.radius_m[slot] < 0) continue;
           found.insert(sites.site_ids[slot]);
           const auto& site = tile.sites[sites.site_ids[slot]];
