@@ -16,18 +16,6 @@ using scene::ImpostorView;
 
 constexpr double texels_from_side = 1000;                                         // of a grid seen from the side, about
 constexpr std::size_t rays_across = 4, rays_a_block = rays_across * rays_across;  // of four texels
-constexpr std::size_t lamps = Impostor::lamp_bands * Impostor::lamp_azimuths;
-
-const std::array<V3, lamps>& lamp_directions() {
-  static const std::array<V3, lamps> directions = [] {
-    std::array<V3, lamps> all;
-    for (std::size_t lamp = 0; lamp < lamps; ++lamp)
-      all[lamp] = scene::lamp_direction(static_cast<int>(lamp) / Impostor::lamp_azimuths,
-                                        static_cast<int>(lamp) % Impostor::lamp_azimuths);
-    return all;
-  }();
-  return directions;
-}
 
 Impostor empty_impostor(const scene::PlantModel& model) {
   Impostor impostor;
@@ -55,23 +43,6 @@ Impostor empty_impostor(const scene::PlantModel& model) {
   impostor.covered.resize(texels);
   impostor.points.resize(texels / 4 * Impostor::points_a_block);
   return impostor;
-}
-
-// The lamps that the model itself hides from a point of its own.
-std::uint64_t barred_from(const scene::PlantModel& model, std::uint32_t slot, const V3& at) {
-  const V3 a = model.position_of(slot, 0);
-  const V3 plane = (model.position_of(slot, 1) - a).cross(model.position_of(slot, 2) - a).normalized();
-  std::array<accel::ModelRay, lamps> rays;
-  for (std::size_t lamp = 0; lamp < lamps; ++lamp) {
-    const V3& towards = lamp_directions()[lamp];
-    constexpr float lift_m = 2e-3f;
-    rays[lamp] = {at + plane * (plane.dot(towards) > 0 ? lift_m : -lift_m), towards, 0};
-  }
-  std::array<std::uint8_t, lamps> answers;
-  accel::bar_model(model, rays, answers);
-  std::uint64_t barred = 0;
-  for (std::size_t lamp = 0; lamp < lamps; ++lamp) barred |= std::uint64_t{answers[lamp]} << lamp;
-  return barred;
 }
 
 // The texels of one grid and their points.
@@ -118,7 +89,6 @@ void fill(const scene::PlantModel& model, int elevation, int side, Impostor& imp
         point.depth_m = met[i].t;
         point.u = static_cast<std::uint16_t>(std::lround(met[i].u * 65535));
         point.v = static_cast<std::uint16_t>(std::lround(met[i].v * 65535));
-        point.barred = barred_from(model, point.slot, rays[i].origin + direction * met[i].t);
       }
     }
   }
