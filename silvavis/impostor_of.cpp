@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "silvasim/base/random.h"
 #include "silvavis/accel/nested.h"
@@ -55,7 +56,7 @@ void fill(const scene::PlantModel& model, int elevation, int side, Impostor& imp
   const float wide = 2 * impostor.radius_m / static_cast<float>(columns),
               high = (view.top_m - view.bottom_m) / static_cast<float>(rows);
   std::array<accel::ModelRay, rays_a_block> rays;
-  std::array<accel::ModelPoint, rays_a_block> met;
+  std::array<std::uint8_t, rays_a_block> met;
   for (std::uint32_t row = 0; row < rows; row += 2) {
     for (std::uint32_t column = 0; column < columns; column += 2) {
       const std::uint32_t block = first / 4 + row / 2 * (columns / 2) + column / 2;
@@ -67,12 +68,13 @@ void fill(const scene::PlantModel& model, int elevation, int side, Impostor& imp
                               view.bottom_m + (static_cast<float>(row) + y) * high),
                    direction, -1e30f};
       }
-      accel::trace_model(model, rays, met);
+      // Whether anything is there is asked of all rays, what it is only of those that are kept.
+      accel::bar_model(model, rays, met);
       std::array<std::uint32_t, 4> hits{};
       std::array<std::size_t, rays_a_block> order;  // of those that met something, by chance
       std::uint32_t count = 0;
       for (std::size_t i = 0; i < rays_a_block; ++i) {
-        if (!std::isfinite(met[i].t)) continue;
+        if (!met[i]) continue;
         ++hits[i / (rays_a_block / 2) * 2 + i % rays_across / (rays_across / 2)];
         order[count] = i;
         std::swap(order[count], order[random.next_below(count + 1)]);
@@ -82,13 +84,15 @@ void fill(const scene::PlantModel& model, int elevation, int side, Impostor& imp
       for (std::uint32_t k = 0; k < 4; ++k)
         impostor.covered[first + (row + k / 2) * columns + column + k % 2] =
             static_cast<std::uint8_t>((hits[k] * 255 + rays_a_texel / 2) / rays_a_texel);
-      for (std::uint32_t k = 0; k < Impostor::points_a_block && count > 0; ++k) {
-        const std::size_t i = order[k % count];
+      if (count == 0) continue;
+      for (std::uint32_t k = 0; k < Impostor::points_a_block; ++k) {
+        accel::ModelPoint kept;
+        accel::trace_model(model, std::span(&rays[order[k % count]], 1), std::span(&kept, 1));
         Impostor::Point& point = impostor.points[block * Impostor::points_a_block + k];
-        point.slot = met[i].slot;
-        point.depth_m = met[i].t;
-        point.u = static_cast<std::uint16_t>(std::lround(met[i].u * 65535));
-        point.v = static_cast<std::uint16_t>(std::lround(met[i].v * 65535));
+        point.slot = kept.slot;
+        point.depth_m = kept.t;
+        point.u = static_cast<std::uint16_t>(std::lround(kept.u * 65535));
+        point.v = static_cast<std::uint16_t>(std::lround(kept.v * 65535));
       }
     }
   }
