@@ -1,6 +1,6 @@
 // Which light the plant itself keeps from a point of its impostor.
 //
-// An impostor has room for 64 directions a point, and tracing them all would be four fifths of what making a model costs. A picture
+// An impostor has room for 64 directions a point, and tracing them all was two thirds of what making a model cost. A picture
 // asks for some of the points under some of the directions; those are traced through the full model when they are first asked
 // for, and kept. What is kept hangs on model, point and direction alone, never on who asked first.
 // Threads: any. Cost: 1 microsecond the first time, then a look into a table.
