@@ -1,18 +1,14 @@
-// The command line of silvasim. The only place that prints an error and ends the program.
-//
-// Exit codes: 0 done, 1 failed while running, 2 wrong command line or configuration, 130 interrupted.
+// The command line of silvasim.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
-#include <new>
 
 #include "silvasim/base/error.h"
 #include "silvasim/base/progress.h"
 #include "silvasim/commands/commands.h"
 #include "silvasim/export/formats.h"
 #include "silvasim/provenance.h"
+#include "silvasim/terminal/terminal.h"
 
 namespace {
 
@@ -156,13 +152,6 @@ void check_command(const CLI::App& app, const std::string& word) {
   throw CLI::ParseError("there is no command \"" + word + "\"" + silvasim::base::did_you_mean(word, names), 2);
 }
 
-// The messages of a configuration are complete lines; others are given the program's name.
-int fail(int code, const std::string& message, bool complete = false) {
-  // Not by fmt::print, which throws where the message cannot be written; the exit code tells all the same.
-  std::fputs(((complete ? "" : "silvasim: error: ") + message + "\n").c_str(), stderr);
-  return code;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -180,25 +169,15 @@ int main(int argc, char** argv) {
   add_export(app, options);
   add_dialect(app, options);
   app.footer("silvasim COMMAND --help tells a command's options.");
-
-  try {
-    check_command(app, argc > 1 ? argv[1] : "");
-    app.parse(argc, argv);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail(1, "cannot write to standard output");
-    return 0;
-  } catch (const CLI::Success& done) {
-    return app.exit(done);
-  } catch (const CLI::ParseError& error) {
-    return fail(2, std::string(error.what()) + "; see silvasim --help");
-  } catch (const silvasim::base::Cancelled&) {
-    return fail(130, "interrupted; nothing was left half-written");
-  } catch (const silvasim::base::ConfigError& error) {
-    return fail(2, error.what(), true);
-  } catch (const silvasim::base::Error& error) {
-    return fail(1, error.what());
-  } catch (const std::bad_alloc&) {
-    return fail(1, "out of memory; lessen the scene, or run it in parts");
-  } catch (const std::exception& error) {
-    return fail(1, error.what());
-  }
+  return silvasim::terminal::run("silvasim", "lessen the scene, or run it in parts", [&] {
+    try {
+      check_command(app, argc > 1 ? argv[1] : "");
+      app.parse(argc, argv);
+      return 0;
+    } catch (const CLI::Success& done) {
+      return app.exit(done);
+    } catch (const CLI::ParseError& error) {
+      throw silvasim::terminal::UsageError(error.what());
+    }
+  });
 }

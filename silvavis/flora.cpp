@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <climits>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -138,9 +139,17 @@ Flora models_of(const ecosystem::Ecosystem& from, const FloraOptions& options,
       throw silvasim::base::Error("there is no layer \"" + name + "\"");
   }
 
+  // The greatest first, one after another: so no thread is left with some when the others are through.
+  const auto size_of = [&](const Task& task) {
+    const ecosystem::Species& species = from.layers[task.layer].species[task.species];
+    return task.file ? INT_MAX : triangles_for(options, static_cast<double>(species.height_m));
+  };
+  std::stable_sort(tasks.begin(), tasks.end(), [&](const Task& a, const Task& b) { return size_of(a) > size_of(b); });
+
   std::vector<std::vector<std::string>> warnings(tasks.size());
-  std::atomic<std::size_t> done = 0;
-  silvasim::base::parallel_for(tasks.size(), [&](std::size_t i) {
+  std::atomic<std::size_t> next = 0, done = 0;
+  silvasim::base::parallel_for(tasks.size(), [&](std::size_t) {
+    const std::size_t i = next++;
     const Task& task = tasks[i];
     flora.models[task.layer][task.species][static_cast<std::size_t>(task.variant)] = packed_with_levels(
         model_for(task, from.layers[task.layer].species[task.species], options, warnings[i]), options.levels);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "silvasim/base/random.h"
 #include "silvavis/accel/nested.h"
@@ -16,18 +17,6 @@ using scene::ImpostorView;
 
 constexpr double texels_from_side = 1000;                                         // of a grid seen from the side, about
 constexpr std::size_t rays_across = 4, rays_a_block = rays_across * rays_across;  // of four texels
-constexpr std::size_t lamps = Impostor::lamp_bands * Impostor::lamp_azimuths;
-
-const std::array<V3, lamps>& lamp_directions() {
-  static const std::array<V3, lamps> directions = [] {
-    std::array<V3, lamps> all;
-    for (std::size_t lamp = 0; lamp < lamps; ++lamp)
-      all[lamp] = scene::lamp_direction(static_cast<int>(lamp) / Impostor::lamp_azimuths,
-                                        static_cast<int>(lamp) % Impostor::lamp_azimuths);
-    return all;
-  }();
-  return directions;
-}
 
 Impostor empty_impostor(const scene::PlantModel& model) {
   Impostor impostor;
@@ -57,23 +46,6 @@ Impostor empty_impostor(const scene::PlantModel& model) {
   return impostor;
 }
 
-// The lamps that the model itself hides from a point of its own.
-std::uint64_t barred_from(const scene::PlantModel& model, std::uint32_t slot, const V3& at) {
-  const V3 a = model.position_of(slot, 0);
-  const V3 plane = (model.position_of(slot, 1) - a).cross(model.position_of(slot, 2) - a).normalized();
-  std::array<accel::ModelRay, lamps> rays;
-  for (std::size_t lamp = 0; lamp < lamps; ++lamp) {
-    const V3& towards = lamp_directions()[lamp];
-    constexpr float lift_m = 2e-3f;
-    rays[lamp] = {at + plane * (plane.dot(towards) > 0 ? lift_m : -lift_m), towards, 0};
-  }
-  std::array<std::uint8_t, lamps> answers;
-  accel::bar_model(model, rays, answers);
-  std::uint64_t barred = 0;
-  for (std::size_t lamp = 0; lamp < lamps; ++lamp) barred |= std::uint64_t{answers[lamp]} << lamp;
-  return barred;
-}
-
 // The texels of one grid and their points.
 void fill(const scene::PlantModel& model, int elevation, int side, Impostor& impostor) {
   const V3 direction = scene::impostor_direction(elevation, side);
@@ -84,7 +56,7 @@ void fill(const scene::PlantModel& model, int elevation, int side, Impostor& imp
   const float wide = 2 * impostor.radius_m / static_cast<float>(columns),
               high = (view.top_m - view.bottom_m) / static_cast<float>(rows);
   std::array<accel::ModelRay, rays_a_block> rays;
-  std::array<accel::ModelPoint, rays_a_block> met;
+  std::array<std::uint8_t, rays_a_block> met;
   for (std::uint32_t row = 0; row < rows; row += 2) {
     for (std::uint32_t column = 0; column < columns; column += 2) {
       const std::uint32_t block = first / 4 + row / 2 * (columns / 2) + column / 2;
@@ -96,12 +68,13 @@ void fill(const scene::PlantModel& model, int elevation, int side, Impostor& imp
                               view.bottom_m + (static_cast<float>(row) + y) * high),
                    direction, -1e30f};
       }
-      accel::trace_model(model, rays, met);
+      // Whether anything is there is asked of all rays, what it is only of those that are kept.
+      accel::bar_model(model, rays, met);
       std::array<std::uint32_t, 4> hits{};
       std::array<std::size_t, rays_a_block> order;  // of those that met something, by chance
       std::uint32_t count = 0;
       for (std::size_t i = 0; i < rays_a_block; ++i) {
-        if (!std::isfinite(met[i].t)) continue;
+        if (!met[i]) continue;
         ++hits[i / (rays_a_block / 2) * 2 + i % rays_across / (rays_across / 2)];
         order[count] = i;
         std::swap(order[count], order[random.next_below(count + 1)]);
@@ -111,14 +84,15 @@ void fill(const scene::PlantModel& model, int elevation, int side, Impostor& imp
       for (std::uint32_t k = 0; k < 4; ++k)
         impostor.covered[first + (row + k / 2) * columns + column + k % 2] =
             static_cast<std::uint8_t>((hits[k] * 255 + rays_a_texel / 2) / rays_a_texel);
-      for (std::uint32_t k = 0; k < Impostor::points_a_block && count > 0; ++k) {
-        const std::size_t i = order[k % count];
+      if (count == 0) continue;
+      for (std::uint32_t k = 0; k < Impostor::points_a_block; ++k) {
+        accel::ModelPoint kept;
+        accel::trace_model(model, std::span(&rays[order[k % count]], 1), std::span(&kept, 1));
         Impostor::Point& point = impostor.points[block * Impostor::points_a_block + k];
-        point.slot = met[i].slot;
-        point.depth_m = met[i].t;
-        point.u = static_cast<std::uint16_t>(std::lround(met[i].u * 65535));
-        point.v = static_cast<std::uint16_t>(std::lround(met[i].v * 65535));
-        point.barred = barred_from(model, point.slot, rays[i].origin + direction * met[i].t);
+        point.slot = kept.slot;
+        point.depth_m = kept.t;
+        point.u = static_cast<std::uint16_t>(std::lround(kept.u * 65535));
+        point.v = static_cast<std::uint16_t>(std::lround(kept.v * 65535));
       }
     }
   }

@@ -5,7 +5,7 @@
 
 namespace silvavis {
 
-// Same model, same impostor. Threads: any. Cost: 0.4 s a model of 160,000 triangles on one core.
+// Same model, same impostor. Threads: any. Cost: 70 ms a model of 40,000 triangles on one core.
 scene::Impostor impostor_of(const scene::PlantModel& model);
 
 }  // namespace silvavis

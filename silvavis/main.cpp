@@ -1,15 +1,10 @@
-// The command line of silvavis. The only place that prints an error and ends the program.
-//
-// Exit codes: 0 done, 1 failed while running, 2 wrong command line, 130 interrupted.
+// The command line of silvavis.
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <exception>
-#include <new>
 #include <string>
 
-#include "silvasim/base/error.h"
 #include "silvasim/base/machine.h"
 #include "silvasim/base/progress.h"
+#include "silvasim/terminal/terminal.h"
 #include "silvavis/commands/diff.h"
 #include "silvavis/commands/fly.h"
 #include "silvavis/commands/info.h"
@@ -187,11 +182,6 @@ void add_diff(CLI::App& app, Options& options) {
   command->callback([&o] { diff(o); });
 }
 
-int fail(int code, const std::string& message, bool complete = false) {
-  std::fputs(((complete ? "" : "silvavis: error: ") + message + "\n").c_str(), stderr);
-  return code;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -207,23 +197,14 @@ int main(int argc, char** argv) {
   add_info(app, options);
   add_diff(app, options);
   app.footer("silvavis COMMAND --help tells a command's options.");
-  try {
-    app.parse(argc, argv);
-    if (std::fflush(stdout) != 0 || std::ferror(stdout)) return fail(1, "cannot write to standard output");
-    return 0;
-  } catch (const CLI::Success& done) {
-    return app.exit(done);
-  } catch (const CLI::ParseError& error) {
-    return fail(2, std::string(error.what()) + "; see silvavis --help");
-  } catch (const silvasim::base::Cancelled&) {
-    return fail(130, "interrupted; nothing was left half-written");
-  } catch (const silvasim::base::ConfigError& error) {
-    return fail(2, error.what(), true);
-  } catch (const silvasim::base::Error& error) {
-    return fail(1, error.what());
-  } catch (const std::bad_alloc&) {
-    return fail(1, "out of memory; lessen the picture or the models' triangles");
-  } catch (const std::exception& error) {
-    return fail(1, error.what());
-  }
+  return silvasim::terminal::run("silvavis", "lessen the picture or the models' triangles", [&] {
+    try {
+      app.parse(argc, argv);
+      return 0;
+    } catch (const CLI::Success& done) {
+      return app.exit(done);
+    } catch (const CLI::ParseError& error) {
+      throw silvasim::terminal::UsageError(error.what());
+    }
+  });
 }

@@ -20,9 +20,8 @@ void help(const HelpOptions& options) {
   } else {
     const std::string text = config::help_element(dialect, options.element);
     if (text.empty()) {
-      throw base::ConfigError({"command line", 0, 0},
-                              "there is no element <" + options.element + ">" +
-                                  base::did_you_mean(options.element, config::element_names(dialect)));
+      terminal::wrong_option("there is no element <" + options.element + ">" +
+                             base::did_you_mean(options.element, config::element_names(dialect)));
     }
     fmt::print("{}", text);
   }

@@ -45,7 +45,7 @@ void check_outputs(const std::vector<Path>& outputs, const std::vector<Path>& in
     for (const Path& file : files_of_output(output)) {
       const Path name = std::filesystem::weakly_canonical(file);
       if (std::find(seen.begin(), seen.end(), name) != seen.end()) {
-        throw base::ConfigError({"command line", 0, 0}, "two outputs have the name \"" + file.string() + "\"");
+        terminal::wrong_option("two outputs have the name \"" + file.string() + "\"");
       }
       seen.push_back(name);
       base::NewFile probe(file, read);

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <memory>
 #include <mutex>
+#include <new>
 
 namespace silvasim::terminal {
 
@@ -52,7 +53,36 @@ struct Bar {
   }
 };
 
+// The messages of a configuration are complete lines; others are given the program's name.
+int fail(int code, const std::string& line) {
+  // Not by fmt::print, which throws where the message cannot be written; the exit code tells all the same.
+  std::fputs((line + "\n").c_str(), stderr);
+  return code;
+}
+
 }  // namespace
+
+int run(const std::string& program, const std::string& less, const std::function<int()>& commands) {
+  const std::string begin = program + ": error: ";
+  try {
+    const int code = commands();
+    if (code == 0 && (std::fflush(stdout) != 0 || std::ferror(stdout)))
+      return fail(1, begin + "cannot write to standard output");
+    return code;
+  } catch (const base::Cancelled&) {
+    return fail(130, begin + "interrupted; nothing was left half-written");
+  } catch (const UsageError& error) {
+    return fail(2, begin + error.what() + "; see " + program + " --help");
+  } catch (const base::ConfigError& error) {
+    return fail(2, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(1, begin + "out of memory; " + less);
+  } catch (const std::exception& error) {
+    return fail(1, begin + error.what());
+  }
+}
+
+void wrong_option(const std::string& message) { throw base::ConfigError({"command line", 0, 0}, message); }
 
 base::Progress console_progress(const Common& common) {
   if (common.quiet) return {};

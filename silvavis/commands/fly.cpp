@@ -22,30 +22,29 @@ namespace silvavis::commands {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using silvasim::base::ConfigError;
-
-[[noreturn]] void wrong(const std::string& message) { throw ConfigError({"command line", 0, 0}, message); }
+using silvasim::terminal::wrong_option;
 
 void check_numbers(const FlyOptions& o) {
   const auto positive = [](const std::optional<double>& value, const char* option, double most) {
     if (value && !(*value > 0 && *value <= most))
-      wrong(fmt::format("{} {} should be above 0, at most {}", option, *value, most));
+      wrong_option(fmt::format("{} {} should be above 0, at most {}", option, *value, most));
   };
   positive(o.fps, "--fps", 1000);
   positive(o.speed_m_s, "--speed", 1e6);
   positive(o.duration_s, "--duration", 24 * 3600);
   if (o.height_above_ground_m && !(std::abs(*o.height_above_ground_m) < 1e6))
-    wrong(fmt::format("--height-above-ground {} should be metres", *o.height_above_ground_m));
-  if (!(std::abs(o.look_down_deg) <= 89)) wrong(fmt::format("--look-down {} should be -89 to 89", o.look_down_deg));
-  if (o.overwrite && o.resume) wrong("--overwrite and --resume exclude each other");
-  if (o.speed_m_s && o.duration_s) wrong("--speed and --duration exclude each other");
+    wrong_option(fmt::format("--height-above-ground {} should be metres", *o.height_above_ground_m));
+  if (!(std::abs(o.look_down_deg) <= 89))
+    wrong_option(fmt::format("--look-down {} should be -89 to 89", o.look_down_deg));
+  if (o.overwrite && o.resume) wrong_option("--overwrite and --resume exclude each other");
+  if (o.speed_m_s && o.duration_s) wrong_option("--speed and --duration exclude each other");
 }
 
 FlightOptions flight_options(const FlyOptions& options, const FlightPath& path) {
   FlightOptions flight;
   const bool timed = path.points.front().time_s.has_value();
   if (timed && (options.speed_m_s || options.duration_s))
-    wrong("the path's points have times; --speed and --duration do not go with them");
+    wrong_option("the path's points have times; --speed and --duration do not go with them");
   flight.fps = options.fps ? *options.fps : path.fps.value_or(25.0);
   if (options.speed_m_s) {
     flight.speed_m_s = *options.speed_m_s;
@@ -73,7 +72,8 @@ Part part_of(const std::string& text, int frames) {
     error = second;
   }
   if (error != std::errc() || at != end || part.first < 1 || part.last < part.first || part.last > frames)
-    wrong(fmt::format("--frames \"{}\" should be a part of 1-{}, like 1-{}", text, frames, std::max(1, frames / 2)));
+    wrong_option(
+        fmt::format("--frames \"{}\" should be a part of 1-{}, like 1-{}", text, frames, std::max(1, frames / 2)));
   return part;
 }
 
@@ -174,7 +174,7 @@ FrameNames::FrameNames(const std::string& pattern) {
   folder_ = path.parent_path();
   const std::string name = path.filename().string();
   const auto fail = [&](const std::string& what) {
-    wrong("the output \"" + pattern + "\" " + what + "; write it like frames/%04d.png");
+    wrong_option("the output \"" + pattern + "\" " + what + "; write it like frames/%04d.png");
   };
   bool numbered = false;
   for (std::size_t i = 0; i < name.size(); ++i) {
@@ -207,6 +207,8 @@ void fly(const FlyOptions& options) {
   const Common& common = options.picture.stage.common;
   const silvasim::base::ThreadLimit threads(common.threads);
   check_numbers(options);
+  check_camera(options.picture);
+  SunWay(options.picture.stage, options.sun_to, Stage{});  // says what is wrong with the sun's way
   const FrameNames name(options.output);
   image::WriteOptions write;
   write.exposure_stops = options.picture.exposure_stops;
@@ -214,12 +216,15 @@ void fly(const FlyOptions& options) {
   write.inputs.push_back(options.path);
   image::check_writable(name(1), write);
   const silvasim::base::Progress progress = silvasim::terminal::console_progress(common);
-  const std::unique_ptr<Stage> stage = set_stage(options.picture.stage, progress);
-
-  const FlightPath path = read_path(options.path, stage->scene, options.height_above_ground_m);
+  FlightPath path;
+  Part part;
+  std::vector<int> numbers;
+  const std::unique_ptr<Stage> stage = set_stage(options.picture.stage, progress, [&](const scene::Scene& bare) {
+    path = read_path(options.path, bare, options.height_above_ground_m);
+    part = part_of(options.frames, Flight(path, bare.ground, flight_options(options, path)).frames());
+    numbers = frames_to_make(options, name, part, write.inputs);
+  });
   const Flight flight(path, stage->scene.ground, flight_options(options, path));
-  const Part part = part_of(options.frames, flight.frames());
-  const std::vector<int> numbers = frames_to_make(options, name, part, write.inputs);
   Film film(options, *stage, flight,
             options.fov_given ? options.picture.fov_deg : path.fov_deg.value_or(options.picture.fov_deg));
 

@@ -15,6 +15,7 @@
 #include "silvasim/fields/picture.h"
 #include "silvasim/fields/raster_field.h"
 #include "silvasim/fields/vector_field.h"
+#include "silvasim/terminal/terminal.h"
 #include "silvavis/assets/srgb.h"
 
 namespace silvavis::commands {
@@ -28,7 +29,7 @@ namespace fields = silvasim::fields;
 constexpr float brightness = 0.6f;
 const Rgb grey(0.30f, 0.30f, 0.30f);
 
-[[noreturn]] void wrong(const std::string& message) { throw base::ConfigError({"command line", 0, 0}, message); }
+using silvasim::terminal::wrong_option;
 
 // The land's box in the scene's frame: it may reach beyond what is planted.
 base::Box land_box(const scene::Scene& scene) {
@@ -188,7 +189,8 @@ void colour_classes(const LandOptions& options, const scene::Scene& scene, shade
     for (const fields::PaletteEntry& entry : fields::load_palette(field))
       palette.emplace(entry.code, linear(entry.rgb.data()));
     if (palette.empty())
-      wrong("\"" + options.classes->string() + "\" has no palette; --class-colours FILE.csv says code,class,#rrggbb");
+      wrong_option("\"" + options.classes->string() +
+                   "\" has no palette; --class-colours FILE.csv says code,class,#rrggbb");
   }
   const fields::Raster raster =
       fields::load_raster_field(field, {scene.crs_wkt, "", planted_box(scene)}, margin_of(scene)).raster;
@@ -249,11 +251,11 @@ void lay_water(const LandOptions& options, const scene::Scene& scene, shade::Lan
 
 shade::Land land_of(const LandOptions& options, const scene::Scene& scene, std::vector<std::string>& warnings) {
   if (options.drape.has_value() + options.classes.has_value() + options.hillshade > 1)
-    wrong("--drape, --classes and --hillshade exclude each other: the land has one look");
-  if (options.class_colours && !options.classes) wrong("--class-colours goes with --classes");
+    wrong_option("--drape, --classes and --hillshade exclude each other: the land has one look");
+  if (options.class_colours && !options.classes) wrong_option("--class-colours goes with --classes");
   constexpr double widest_m = 1e4;
   if (!(options.water_width_m > 0 && options.water_width_m <= widest_m))
-    wrong(fmt::format("--water-width {} should be above 0 m, at most {}", options.water_width_m, widest_m));
+    wrong_option(fmt::format("--water-width {} should be above 0 m, at most {}", options.water_width_m, widest_m));
   shade::Land land;
   if (options.drape) drape(*options.drape, scene, land);
   if (options.classes) colour_classes(options, scene, land, warnings);

@@ -6,6 +6,7 @@
 #include "silvasim/base/file.h"
 #include "silvasim/config/elements/elements.h"
 #include "silvasim/config/xml.h"
+#include "silvasim/terminal/terminal.h"
 #include "silvavis/commands/path_geojson.h"
 #include "silvavis/commands/spot.h"
 
@@ -96,11 +97,9 @@ FlightPath read_path(const std::filesystem::path& file, const scene::Scene& scen
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
   if (ending == ".geojson" || ending == ".json") return read_geojson_path(file, scene, height_above_ground_m);
   if (ending != ".xml")
-    throw base::ConfigError({"command line", 0, 0},
-                            "the path \"" + file.string() + "\" should end in .xml, .geojson or .json");
+    silvasim::terminal::wrong_option("the path \"" + file.string() + "\" should end in .xml, .geojson or .json");
   if (height_above_ground_m)
-    throw base::ConfigError({"command line", 0, 0},
-                            "--height-above-ground is for GeoJSON; in XML each point says height and above");
+    silvasim::terminal::wrong_option("--height-above-ground is for GeoJSON; in XML each point says height and above");
 
   const config::Dialect dialect = path_dialect();
   Diagnostics errors;

@@ -19,7 +19,6 @@ namespace silvavis::commands {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using silvasim::base::ConfigError;
 
 }  // namespace
 
@@ -46,17 +45,11 @@ shade::Camera camera_for(const RenderOptions& options, const scene::Scene& scene
   return camera;
 }
 
-// Of the options of camera_for(), what can be known without the scene.
 void check_camera(const RenderOptions& options) {
   shade::Camera camera;
   parse_size(options.size, camera.width, camera.height);
   if (options.eye.empty() != options.look_at.empty())
-    throw ConfigError({"command line", 0, 0}, "--eye and --look-at belong together");
-  if (options.eye.empty()) return;
-  scene::Scene flat;
-  flat.ground = scene::make_ground({}, {0, 0, 1, 1}, {0, 0});
-  world_point(flat, options.eye, "--eye");
-  world_point(flat, options.look_at, "--look-at");
+    silvasim::terminal::wrong_option("--eye and --look-at belong together");
 }
 
 shade::HazeOptions haze_for(const RenderOptions& options, const Stage& stage, const V3d& eye) {
@@ -141,7 +134,8 @@ void render(const RenderOptions& options) {
   if (!options.camera.empty()) write.inputs.push_back(camera_file(options.camera));
   image::check_writable(options.output, write);
   const silvasim::base::Progress progress = silvasim::terminal::console_progress(common);
-  const std::unique_ptr<Stage> stage = set_stage(options.stage, progress);
+  const std::unique_ptr<Stage> stage =
+      set_stage(options.stage, progress, [&](const scene::Scene& bare) { shade::lens_of(camera_for(options, bare)); });
 
   silvavis::RenderOptions settings = settings_of(options);
   settings.camera = camera_for(options, stage->scene);

@@ -29,6 +29,8 @@ struct RenderOptions {
 void render(const RenderOptions& options);
 
 // What `fly` and `view` share with it: where from and how a picture is sampled, which channels are kept, and what is written beside its pixels.
+// What can be known of camera_for()'s options without the scene.
+void check_camera(const RenderOptions& options);
 shade::Camera camera_for(const RenderOptions& options, const scene::Scene& scene);
 // As asked for; else all of the air, and less of it the farther outside of the scene the eye is.
 shade::HazeOptions haze_for(const RenderOptions& options, const Stage& stage, const V3d& eye);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,8 +57,13 @@ struct Stage {
   } seconds;
 };
 
+// Is shown the scene's frame and ground before anyone waits for models, and throws where a camera or a path does not go with
+// them. There are no layers in the scene yet, and it is gone afterwards.
+using Judge = std::function<void(const scene::Scene& bare)>;
+
 // Prints warnings to standard error. The stage stays where it is made: its tracer refers to it.
-std::unique_ptr<Stage> set_stage(const StageOptions& options, const silvasim::base::Progress& progress);
+std::unique_ptr<Stage> set_stage(const StageOptions& options, const silvasim::base::Progress& progress,
+                                 const Judge& judge = {});
 
 // The light of `stage.sun` for an eye at that height above the sea: beyond the scene it sees the ground of a round earth, as
 // far below as the scene's lowest point. set_stage() makes the light for an eye on that ground.

@@ -50,7 +50,7 @@ SunWay::SunWay(const StageOptions& options, const std::string& sun_to, const Sta
       latitude_deg_(stage.latitude_deg) {
   if (!moves_) return;
   if (!options.sun_direction.empty())
-    throw silvasim::base::ConfigError({"command line", 0, 0}, "--sun-to goes with --sun, not with --sun-direction");
+    silvasim::terminal::wrong_option("--sun-to goes with --sun, not with --sun-direction");
   from_s_ = seconds_of(shade::parse_moment(options.sun.empty() ? default_sun : options.sun), longitude_deg_);
   to_s_ = seconds_of(shade::parse_moment(sun_to), longitude_deg_);
 }

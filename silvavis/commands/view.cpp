@@ -337,6 +337,7 @@ class Session {
 void view(const ViewOptions& options) {
   const Common& common = options.picture.stage.common;
   const silvasim::base::ThreadLimit threads(common.threads);
+  check_camera(options.picture);
   image::WriteOptions write;
   write.inputs = inputs_of(options.picture.stage);
   if (!options.picture.camera.empty()) write.inputs.push_back(camera_file(options.picture.camera));
@@ -351,7 +352,8 @@ void view(const ViewOptions& options) {
   // With levels in any case, so that L can turn them on.
   StageOptions stage_options = options.picture.stage;
   stage_options.lod = "auto";
-  const std::unique_ptr<Stage> stage = set_stage(stage_options, progress);
+  const std::unique_ptr<Stage> stage = set_stage(
+      stage_options, progress, [&](const scene::Scene& bare) { shade::lens_of(camera_for(options.picture, bare)); });
   silvasim::terminal::end_progress(common);
   Session session(options, *stage, window, write);
   window.open("silvavis " + stage_options.ecosystem.filename().string(), width, height);

@@ -1,202 +1,20 @@
 #include "silvavis/levels/thin.h"
 
-#include <meshoptimizer.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
-#include <optional>
 #include <span>
 #include <vector>
 
+#include "silvavis/levels/leaves.h"
 #include "silvavis/levels/silhouette.h"
+#include "silvavis/levels/wood.h"
 
 namespace silvavis::levels {
 
 namespace {
 
 using assets::Model;
-
-bool is_leaf(const assets::Material& material) {
-  return material.alpha_cutoff > 0 || luminance(material.transmittance) > 0;
-}
-
-// Pieces of triangles that share corners.
-class Pieces {
- public:
-  explicit Pieces(std::size_t corners) : parent_(corners) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  // The lower number is the root, so that the order of joining does not matter.
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
-struct Leaf {
-  std::uint32_t first = 0, count = 0;  // in Leaves::triangles
-  V3 centre{0, 0, 0};
-  float area = 0;
-  std::uint64_t place = 0;  // along a curve through the crown
-};
-
-struct Leaves {
-  std::vector<std::uint32_t> triangles;  // leaf by leaf, each leaf's in the model's order
-  std::vector<Leaf> leaves;
-
-  std::span<const std::uint32_t> of(const Leaf& leaf) const {
-    return std::span(triangles).subspan(leaf.first, leaf.count);
-  }
-};
-
-// The place on a Morton curve of 2^16 steps a side, so that even steps through the order are even in space.
-std::uint64_t morton(const V3& p, const V3& least, float size) {
-  std::uint64_t code = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto at = static_cast<std::uint64_t>(std::clamp((p[axis] - least[axis]) / size, 0.0f, 0.9999f) * 65536.0f);
-    for (int bit = 0; bit < 16; ++bit) code |= (at >> bit & 1) << (3 * bit + axis);
-  }
-  return code;
-}
-
-Leaves leaves_of(const Model& model) {
-  Pieces pieces(model.positions.size());
-  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
-    if (!is_leaf(model.materials[model.triangle_materials[t]])) continue;
-    pieces.join(model.triangles[t][0], model.triangles[t][1]);
-    pieces.join(model.triangles[t][0], model.triangles[t][2]);
-  }
-  std::vector<std::uint32_t> number(model.positions.size(), 0xFFFFFFFF);
-  Leaves all;
-  std::vector<Leaf>& leaves = all.leaves;
-  V3 least = model.positions[0], most = least;
-  for (const V3& p : model.positions) {
-    for (int axis = 0; axis < 3; ++axis) {
-      least[axis] = std::min(least[axis], p[axis]);
-      most[axis] = std::max(most[axis], p[axis]);
-    }
-  }
-  for (std::uint32_t t = 0; t < model.triangles.size(); ++t) {
-    if (!is_leaf(model.materials[model.triangle_materials[t]])) continue;
-    const std::uint32_t root = pieces.root(model.triangles[t][0]);
-    if (number[root] == 0xFFFFFFFF) {
-      number[root] = static_cast<std::uint32_t>(leaves.size());
-      leaves.emplace_back();
-    }
-    Leaf& leaf = leaves[number[root]];
-    const V3 &a = model.positions[model.triangles[t][0]], &b = model.positions[model.triangles[t][1]],
-             &c = model.positions[model.triangles[t][2]];
-    const float area = 0.5f * (b - a).cross(c - a).length();
-    ++leaf.count;
-    leaf.centre += (a + b + c) * (area / 3);
-    leaf.area += area;
-  }
-  const V3 size = most - least;
-  const float side = std::max({size.x, size.y, size.z, 1e-6f});
-  std::uint32_t sum = 0;
-  for (Leaf& leaf : leaves) {
-    if (leaf.area > 0) leaf.centre /= leaf.area;
-    leaf.place = morton(leaf.centre, least, side);
-    leaf.first = sum;
-    sum += leaf.count;
-    leaf.count = 0;
-  }
-  all.triangles.resize(sum);
-  for (std::uint32_t t = 0; t < model.triangles.size(); ++t) {
-    if (!is_leaf(model.materials[model.triangle_materials[t]])) continue;
-    Leaf& leaf = leaves[number[pieces.root(model.triangles[t][0])]];
-    all.triangles[leaf.first + leaf.count++] = t;
-  }
-  std::sort(leaves.begin(), leaves.end(), [&](const Leaf& a, const Leaf& b) {
-    return a.place != b.place ? a.place < b.place : all.triangles[a.first] < all.triangles[b.first];
-  });
-  return all;
-}
-
-// The vertices of some triangles, in the model's order, and two that are as far apart as the whole model reaches, because
-// meshoptimizer's errors are shares of that. It takes a hundred bytes for each vertex that it is shown.
-struct FewVertices {
-  std::vector<std::uint32_t> vertices;  // in the model
-  std::vector<V3> positions;
-  std::vector<unsigned int> indices;
-
-  FewVertices(const Model& from, const std::vector<unsigned int>& corners) {
-    std::vector<std::uint32_t> number(from.positions.size(), 0xFFFFFFFF);
-    for (const unsigned int corner : corners) number[corner] = 0;
-    V3 least = from.positions[0], most = least;
-    for (std::uint32_t v = 0; v < number.size(); ++v) {
-      const V3& p = from.positions[v];
-      for (int axis = 0; axis < 3; ++axis) {
-        least[axis] = std::min(least[axis], p[axis]);
-        most[axis] = std::max(most[axis], p[axis]);
-      }
-      if (number[v] != 0) continue;
-      number[v] = static_cast<std::uint32_t>(vertices.size());
-      vertices.push_back(v);
-      positions.push_back(p);
-    }
-    positions.push_back(least);
-    positions.push_back(most);
-    for (const unsigned int corner : corners) indices.push_back(number[corner]);
-  }
-};
-
-// The wood with about `target` triangles.
-void add_wood(const Model& from, std::size_t target, Model& to) {
-  // A texture per material, so material by material.
-  std::vector<std::vector<unsigned int>> by_material(from.materials.size());
-  std::size_t all = 0;
-  for (std::size_t t = 0; t < from.triangles.size(); ++t) {
-    const std::uint16_t material = from.triangle_materials[t];
-    if (is_leaf(from.materials[material])) continue;
-    by_material[material].insert(by_material[material].end(), from.triangles[t].begin(), from.triangles[t].end());
-    ++all;
-  }
-  std::vector<std::uint32_t> number(from.positions.size(), 0xFFFFFFFF);
-  for (std::size_t m = 0; m < by_material.size(); ++m) {
-    auto& indices = by_material[m];
-    if (indices.empty()) continue;
-    const std::size_t wanted =
-        std::max<std::size_t>(4, indices.size() / 3 * target / std::max<std::size_t>(all, 1)) * 3;
-    if (wanted < indices.size()) {
-      std::vector<unsigned int> simpler(indices.size());
-      std::optional<FewVertices> few(std::in_place, from, indices);
-      std::size_t count = meshopt_simplify(simpler.data(), few->indices.data(), indices.size(), &few->positions[0].x,
-                                           few->positions.size(), sizeof(V3), wanted, 1.0f, 0, nullptr);
-      for (std::size_t i = 0; i < count; ++i) simpler[i] = few->vertices[simpler[i]];
-      few.reset();
-      if (count > wanted + wanted / 2) {
-        count = meshopt_simplifySloppy(simpler.data(), indices.data(), indices.size(), &from.positions[0].x,
-                                       from.positions.size(), sizeof(V3), wanted, 1.0f, nullptr);
-      }
-      simpler.resize(count);
-      indices = std::move(simpler);
-    }
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-      std::array<std::uint32_t, 3> corners;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const std::uint32_t old = indices[i + c];
-        if (number[old] == 0xFFFFFFFF) {
-          number[old] = static_cast<std::uint32_t>(to.positions.size());
-          to.positions.push_back(from.positions[old]);
-          to.normals.push_back(from.normals[old]);
-          to.uvs.push_back(from.uvs[old]);
-        }
-        corners[c] = number[old];
-      }
-      to.triangles.push_back(corners);
-      to.triangle_materials.push_back(static_cast<std::uint16_t>(m));
-    }
-  }
-}
 
 // How far the model reaches; enlarged leaves stay within, so that bounds made for the model hold for what replaces it.
 struct Limits {
@@ -258,7 +76,8 @@ double top_area(const Model& model, float cell_m) {
 }  // namespace
 
 Thinned thinned(const Model& model, double share) {
-  const Leaves all = leaves_of(model);
+  Leaves all = leaves_of(model);
+  put_along_curve(model, all);
   const std::vector<Leaf>& leaves = all.leaves;
   const auto wood_target =
       static_cast<std::size_t>(static_cast<double>(model.triangles.size() - all.triangles.size()) * share);

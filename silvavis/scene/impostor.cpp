@@ -26,9 +26,10 @@ V3 impostor_direction(int elevation, int side) {
   return direction_of(sine, static_cast<float>(side) * (4.0f / Impostor::sides));
 }
 
-V3 lamp_direction(int band, int azimuth) {
-  return direction_of((static_cast<float>(band) + 0.5f) / Impostor::lamp_bands,
-                      static_cast<float>(azimuth) * (4.0f / Impostor::lamp_azimuths));
+V3 lamp_direction(std::uint32_t lamp) {
+  constexpr std::uint32_t bands = Impostor::lamp_bands;
+  return direction_of((static_cast<float>(lamp % bands) + 0.5f) / Impostor::lamp_bands,
+                      static_cast<float>(lamp / bands) * (4.0f / Impostor::lamp_azimuths));
 }
 
 }  // namespace silvavis::scene

@@ -3,7 +3,8 @@
 // A texel holds how much of it the plant covers; four of them share two of the very points that were met: a leaf or a piece of wood
 // of the full model, with its normal and colours, and the 64 directions of the upper hemisphere in which the plant itself bars the light. So
 // coverage, colour and own shadow are the full model's in the mean, at the price of looking into a table instead of walking a
-// tree. The grid turns with who looks, about the stem, so nothing pops where an eye moves around a plant; between elevations
+// tree. What bars the light is found out where it is first asked for (shade/own_shadow.h): a picture asks for a small part of it.
+// The grid turns with who looks, about the stem, so nothing pops where an eye moves around a plant; between elevations
 // and at the edge of coverage a hash of ray and plant decides, so nothing pops there either.
 //
 // Units: metres of the model's space. A grid is as wide as the upright cylinder that holds the model, seen in its direction.
@@ -25,14 +26,15 @@ namespace silvavis::scene {
 struct Impostor {
   // Grids: of rays that travel down or up by so many degrees, even in the sine, and from so many sides.
   static constexpr int elevations = 12, sides = 3;
-  static constexpr int lamp_bands = 16, lamp_azimuths = 4;
+  static constexpr int lamp_bands = 16, lamp_azimuths = 4, lamps = lamp_bands * lamp_azimuths;
   static constexpr std::uint32_t points_a_block = 2;
 
   struct Point {
-    std::uint64_t barred = 0;    // bit lamp_band * lamp_azimuths + lamp_azimuth: the plant itself is in the light's way
-    std::uint32_t slot = 0;      // triangle of the full model
-    float depth_m = 0;           // along the direction, from the plane through the foot
-    std::uint16_t u = 0, v = 0;  // weights of corners 1 and 2, of 65535
+    mutable std::uint64_t barred = 0;  // by lamp: the plant itself is in the light's way. Only for shade/own_shadow.h
+    mutable std::uint32_t known = 0;   // by lamp / 2: the bits in `barred` are right
+    std::uint32_t slot = 0;            // triangle of the full model
+    float depth_m = 0;                 // along the direction, from the plane through the foot
+    std::uint16_t u = 0, v = 0;        // weights of corners 1 and 2, of 65535
   };
 
   float radius_m = 1, least_m = 0, most_m = 1;
@@ -70,7 +72,7 @@ struct ImpostorView {
 
 // The direction of a grid, and that towards a lamp of the upper hemisphere.
 V3 impostor_direction(int elevation, int side);
-V3 lamp_direction(int band, int azimuth);
+V3 lamp_direction(std::uint32_t lamp);
 
 // A direction's place around the axis in [0, 4), without a call of a trigonometric function: 0 is +x, 1 is +y. Multiples of a
 // half are multiples of 45 degrees.
@@ -127,15 +129,14 @@ inline std::uint32_t meet_impostor(const Impostor& impostor, const V3& origin, c
   return block * Impostor::points_a_block + static_cast<std::uint32_t>(chance >> 48 & (Impostor::points_a_block - 1));
 }
 
-// Whether the plant itself is between its point and the light, `towards` in the model's space and above the horizon. Between
-// lamps chance decides.
-inline bool is_barred(const Impostor::Point& point, const V3& towards, std::uint64_t chance) {
+// The lamp for a light, `towards` in the model's space and above the horizon. Between lamps chance decides.
+inline std::uint32_t lamp_for(const V3& towards, std::uint64_t chance) {
   const float place = towards.z * Impostor::lamp_bands + 0.5f + of_byte(chance, 0);
   const int band = std::clamp(static_cast<int>(place) - 1, 0, Impostor::lamp_bands - 1);
   const int azimuth =
       static_cast<int>((Impostor::lamp_azimuths / 4) * diamond_angle(towards.x, towards.y) + of_byte(chance, 8)) &
       (Impostor::lamp_azimuths - 1);
-  return point.barred >> (band * Impostor::lamp_azimuths + azimuth) & 1;
+  return static_cast<std::uint32_t>(azimuth * Impostor::lamp_bands + band);
 }
 
 }  // namespace silvavis::scene

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "silvavis/scene/instance.h"
+#include "silvavis/shade/own_shadow.h"
 
 namespace silvavis::shade {
 
@@ -71,10 +72,11 @@ SurfacePoint surface_at(const scene::Scene& scene, const Land& land, const accel
   std::uint32_t slot = hit.slot;
   float u = hit.u, v = hit.v, tint = 1;
   if (scene::is_impostor(full, hit.level)) {
-    point.told = &full.impostor->points[hit.slot];
-    slot = point.told->slot;
-    u = static_cast<float>(point.told->u) * (1.0f / 65535);
-    v = static_cast<float>(point.told->v) * (1.0f / 65535);
+    const Impostor::Point& met = full.impostor->points[hit.slot];
+    point.told = &full;
+    slot = met.slot;
+    u = static_cast<float>(met.u) * (1.0f / 65535);
+    v = static_cast<float>(met.v) * (1.0f / 65535);
   }
   const scene::PlantModel& model = hit.level == 0 || point.told ? full : *full.coarser[hit.level - 1u];
   if (!point.told) tint = model.tint;
@@ -111,7 +113,7 @@ bool ray_from(const SurfacePoint& point, const accel::Hit& hit, const V3& toward
   if (!point.told) return true;
   const auto [c, s] = point.turn;
   const V3 local(c * towards.x + s * towards.y, c * towards.y - s * towards.x, towards.z);
-  if (local.z > 0 && scene::is_barred(*point.told, local, scene::ray_hash(ray.origin, towards))) return false;
+  if (local.z > 0 && is_barred(*point.told, hit.slot, local, scene::ray_hash(ray.origin, towards))) return false;
   ray.left_slot = hit.site_slot;
   ray.left_column = hit.column;
   ray.left_row = hit.row;

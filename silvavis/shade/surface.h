@@ -18,8 +18,8 @@ struct SurfacePoint {
   Rgb transmittance{0, 0, 0};
   bool water = false;  // a mirror by Fresnel
 
-  // Of an impostor: what the plant bars itself, and how it is turned.
-  const scene::Impostor::Point* told = nullptr;
+  // Of an impostor: the model, which tells what it bars itself, and how it is turned.
+  const scene::PlantModel* told = nullptr;
   scene::Turn turn{1, 0};
 };
 

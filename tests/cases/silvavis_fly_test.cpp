@@ -111,6 +111,26 @@ TEST(Fly, OutputsThatCannotBe) {
   EXPECT_EQ(folder.files(), (std::vector<std::string>{"3.png", "path.xml"}));
 }
 
+TEST(Fly, WhatIsWrongIsSaidBeforeModelsAreMade) {
+  const Folder folder;
+  write(folder / "path.xml", path_text());
+  write(folder / "wrong.xml", path_text("spee=\"3\""));
+  write(folder / "2.png", "mine");
+  const auto refused = [&](const std::string& path, const std::vector<std::string>& more, const char* what, int code) {
+    std::vector<std::string> arguments{"fly", grown(example), folder / path, "-o", folder / "%d.png"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = silvavis(arguments);
+    EXPECT_EQ(outcome.code, code);
+    EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr(what), testing::Not(HasSubstr("models"))));
+  };
+  refused("wrong.xml", {}, "has no attribute \"spee\"", 2);
+  refused("path.xml", {}, "1 of the frames 1 to 5 are there already", 1);
+  refused("path.xml", {"--frames", "3-9"}, "a part of 1-5", 2);
+  refused("path.xml", {"--sun-to", "yesterday"}, "yesterday", 1);
+  refused("path.xml", {"--size", "10"}, "--size", 2);
+  refused("none.xml", {}, "none.xml", 1);
+}
+
 TEST(Fly, PathsThatCannotBe) {
   const Folder folder;
   const auto error = [&](const std::string& name, const std::string& text, int code = 2) {

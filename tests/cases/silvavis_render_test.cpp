@@ -75,6 +75,36 @@ TEST(Cameras, ByNameAndByNumbersAreTheSame) {
                              HasSubstr("is no finite number")));
 }
 
+// Wrong cameras are named before anyone waits for models, by the ground as it is: one that looks straight down on high land is
+// right, though over land at height 0 it would look at itself.
+TEST(Cameras, AreJudgedBeforeModelsAreMade) {
+  const Folder folder;
+  const std::string forest = grown("02-elevation");
+  const View view = over("02-elevation");
+  const auto camera = [&](const std::string& height) {
+    const std::string place =
+        " x=\"" + std::to_string(view.look_at.x) + "\" y=\"" + std::to_string(view.look_at.y) + "\" ";
+    write(folder / "c.xml", "<cameras><camera name=\"down\"><eye" + place +
+                                "height=\"300\" above=\"ground\"/><look-at" + place + "height=\"" + height +
+                                "\"/></camera></cameras>");
+    return silvavis({"render", forest, "--camera", folder / "c.xml#down", "-o", folder / "a.png", "--size", "16x9",
+                     "--spp", "1", "--triangles", "1000"});
+  };
+  ASSERT_GT(view.look_at.z, 50);
+  const Outcome down = camera("300");
+  EXPECT_EQ(down.code, 0) << down.err;
+  EXPECT_THAT(down.err, HasSubstr("models ..."));
+  const auto refused = [&](const Outcome& outcome, const char* what, int code = 2) {
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("read ..."), HasSubstr(what), testing::Not(HasSubstr("models"))));
+  };
+  refused(camera("300\" above=\"ground"), "the eye is where it looks at");
+  refused(silvavis({"render", forest, "--camera", folder / "c.xml#up", "-o", folder / "b.png"}), "no camera \"up\"");
+  refused(silvavis({"render", forest, "--camera", folder / "none.xml", "-o", folder / "b.png"}), "none.xml", 1);
+  refused(silvavis({"render", forest, "--eye", "1,2", "--look-at", "1,2,3", "-o", folder / "b.png"}), "--eye");
+  refused(silvavis({"render", forest, "--drape", folder / "none.tif", "-o", folder / "b.png"}), "none.tif");
+}
+
 // Every plant's number in an EXR names the row of the exported table whose crown holds the point that is seen.
 TEST(Channels, PlantsAreThoseOfTheExport) {
   const Folder folder;

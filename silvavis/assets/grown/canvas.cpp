@@ -26,27 +26,42 @@ std::uint8_t encoded_fast(float linear) {
   return table[std::min<std::size_t>(4095, static_cast<std::size_t>(std::sqrt(clamp01(linear)) * 4096))];
 }
 
+// Ring by ring: a blank texel becomes the mean of those beside it that the ring before has coloured.
 void spread_colours(Canvas& canvas) {
-  for (int ring = 0; ring < 8; ++ring) {
-    const std::vector<Texel> before = canvas.texels;
-    const auto old = [&](int x, int y) -> const Texel& {
-      return before[static_cast<std::size_t>(y) * static_cast<std::size_t>(canvas.width) + static_cast<std::size_t>(x)];
-    };
-    const auto blank = [](const Texel& t) { return t.alpha <= 0 && t.colour.x + t.colour.y + t.colour.z <= 0; };
-    for (int y = 0; y < canvas.height; ++y) {
-      for (int x = 0; x < canvas.width; ++x) {
-        if (!blank(old(x, y))) continue;
-        Rgb sum(0, 0, 0);
-        float count = 0;
-        for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-          const int i = x + dx, j = y + dy;
-          if (i < 0 || j < 0 || i >= canvas.width || j >= canvas.height || blank(old(i, j))) continue;
-          sum += old(i, j).colour;
-          count += 1;
-        }
-        if (count > 0) canvas.at(x, y).colour = sum * (1 / count);
+  const int width = canvas.width, height = canvas.height;
+  const auto blank = [](const Texel& t) { return t.alpha <= 0 && t.colour.x + t.colour.y + t.colour.z <= 0; };
+  std::vector<std::uint8_t> coloured(canvas.texels.size());
+  std::vector<std::uint32_t> blanks, still;
+  for (std::uint32_t i = 0; i < canvas.texels.size(); ++i) {
+    coloured[i] = !blank(canvas.texels[i]);
+    if (!coloured[i]) blanks.push_back(i);
+  }
+  std::vector<std::uint32_t> ring;
+  for (int rings = 0; rings < 8; ++rings) {
+    ring.clear();
+    still.clear();
+    for (const std::uint32_t i : blanks) {
+      const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+      Rgb sum(0, 0, 0);
+      float count = 0;
+      const auto add = [&](bool there, std::uint32_t beside) {
+        if (!there || !coloured[beside]) return;
+        sum += canvas.texels[beside].colour;
+        count += 1;
+      };
+      add(x > 0, i - 1);
+      add(x + 1 < width, i + 1);
+      add(y > 0, i - static_cast<std::uint32_t>(width));
+      add(y + 1 < height, i + static_cast<std::uint32_t>(width));
+      if (count <= 0) {
+        still.push_back(i);
+        continue;
       }
+      canvas.texels[i].colour = sum * (1 / count);
+      (blank(canvas.texels[i]) ? still : ring).push_back(i);
     }
+    for (const std::uint32_t i : ring) coloured[i] = 1;
+    blanks.swap(still);
   }
 }
 
@@ -59,28 +74,35 @@ Texture to_texture(Canvas canvas, const std::string& name, bool has_alpha) {
   texture.width = canvas.width;
   texture.height = canvas.height;
   texture.has_alpha = has_alpha;
-  texture.rgba.reserve(canvas.texels.size() * 4);
+  texture.rgba.resize(canvas.texels.size() * 4);
+  std::uint8_t* to = texture.rgba.data();
   for (const Texel& t : canvas.texels) {
-    const std::uint8_t alpha = has_alpha ? static_cast<std::uint8_t>(clamp01(t.alpha) * 255 + 0.5f) : 255;
-    texture.rgba.insert(texture.rgba.end(),
-                        {encoded_fast(t.colour.x), encoded_fast(t.colour.y), encoded_fast(t.colour.z), alpha});
+    *to++ = encoded_fast(t.colour.x);
+    *to++ = encoded_fast(t.colour.y);
+    *to++ = encoded_fast(t.colour.z);
+    *to++ = has_alpha ? static_cast<std::uint8_t>(clamp01(t.alpha) * 255 + 0.5f) : 255;
   }
   return texture;
 }
 
 float tiling_noise(float x, float y, int period_x, int period_y, std::uint32_t salt) {
-  const auto corner = [&](int i, int j) {
-    const auto a = static_cast<std::uint32_t>((i % period_x + period_x) % period_x);
-    const auto b = static_cast<std::uint32_t>((j % period_y + period_y) % period_y);
-    std::uint32_t h = (a * 0x9E3779B1u) ^ (b * 0x85EBCA77u) ^ (salt * 0xC2B2AE3Du);
+  const auto column = [](int i, int period) {  // few are outside, and a division costs more than all the rest
+    if (i >= 0 && i < period) return static_cast<std::uint32_t>(i);
+    return static_cast<std::uint32_t>(i == period ? 0 : (i % period + period) % period);
+  };
+  const auto value = [](std::uint32_t h) {
     h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
     h = (h ^ (h >> 12)) * 0x297A2D39u;
     return static_cast<float>((h ^ (h >> 15)) >> 8) * 0x1p-23f - 1;
   };
-  const float fx = std::floor(x), fy = std::floor(y);
-  const int i = static_cast<int>(fx), j = static_cast<int>(fy);
-  const float u = smooth(0, 1, x - fx), v = smooth(0, 1, y - fy);
-  return mix(mix(corner(i, j), corner(i + 1, j), u), mix(corner(i, j + 1), corner(i + 1, j + 1), u), v);
+  const auto floored = [](float at) { return static_cast<int>(at) - (at < static_cast<float>(static_cast<int>(at))); };
+  const int i = floored(x), j = floored(y);
+  const float u = smooth(0, 1, x - static_cast<float>(i)), v = smooth(0, 1, y - static_cast<float>(j));
+  const std::uint32_t salted = salt * 0xC2B2AE3Du;
+  const std::uint32_t a0 = column(i, period_x) * 0x9E3779B1u, a1 = column(i + 1, period_x) * 0x9E3779B1u;
+  const std::uint32_t b0 = column(j, period_y) * 0x85EBCA77u ^ salted,
+                      b1 = column(j + 1, period_y) * 0x85EBCA77u ^ salted;
+  return mix(mix(value(a0 ^ b0), value(a1 ^ b0), u), mix(value(a0 ^ b1), value(a1 ^ b1), u), v);
 }
 
 }  // namespace silvavis::assets::grown

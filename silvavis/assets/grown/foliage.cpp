@@ -130,6 +130,12 @@ void add_foliage(Model& model, const Skeleton& skeleton, const Form& form, float
   const V3 centre(0, 0, mix(form.crown_base, 1.0f, 0.35f) * height_m);
   std::size_t at = 0;
   Draws draws(seed, 2);
+  const std::size_t points = static_cast<std::size_t>(grid.columns + 1) * static_cast<std::size_t>(grid.rows + 1);
+  model.positions.reserve(model.positions.size() + count * points);
+  model.normals.reserve(model.normals.size() + count * points);
+  model.uvs.reserve(model.uvs.size() + count * points);
+  model.triangles.reserve(model.triangles.size() + count * grid.triangles());
+  model.triangle_materials.reserve(model.triangles.size() + count * grid.triangles());
   for (std::size_t i = 0; i < count; ++i) {
     // One card in each of `count` equal parts of the leafed length.
     const float way = (static_cast<float>(i) + draws.share()) / static_cast<float>(count) * total;

@@ -16,7 +16,8 @@ V2 turned(const V2& d, float angle) {
   return {d.x * a.cos - d.y * a.sin, d.x * a.sin + d.y * a.cos};
 }
 
-// Half of a leaf's width at x in [0,1] from its foot to its tip, as a share of its greatest half width.
+// Half of a leaf's width at x in [0,1] from its foot to its tip, as a share of its greatest half width; not above `widest`.
+constexpr float widest = 1.11f;
 float half_width(Leaf leaf, float x) {
   if (x <= 0 || x >= 1) return 0;
   switch (leaf) {
@@ -267,10 +268,10 @@ class Painter {
                {std::max(foot.x, tip.x) + reach, std::max(foot.y, tip.y) + reach}, [&](const V2& p) {
                  const V2 q = p - foot;
                  const float x = q.dot(way) / length, y = q.dot(across);
-                 const float h = half * half_width(shape, x);
                  Texel t;
+                 if (x < 0 || x > 1 || std::abs(y) > widest * half + 0.5f) return t;
+                 const float h = half * half_width(shape, x);
                  t.alpha = clamp01(h - std::abs(y) + 0.5f);
-                 if (x < 0 || x > 1) t.alpha = 0;
                  const float on_rib = length > 16 ? clamp01(1.2f - std::abs(y) / (0.03f * length)) : 0;
                  const float light = (y > 0 ? 1.06f : 0.94f) * (0.92f + 0.12f * x);
                  t.colour = mix(shade * light, rib, 0.6f * on_rib);

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
+#include <thread>
 #include <vector>
 
 #include "silvasim/base/random.h"
@@ -9,6 +11,7 @@
 #include "silvavis/accel/pack.h"
 #include "silvavis/assets/grown/grow.h"
 #include "silvavis/impostor_of.h"
+#include "silvavis/shade/own_shadow.h"
 
 namespace silvavis::testing {
 
@@ -19,6 +22,11 @@ using scene::Impostor;
 scene::PlantModel grown(const char* name, double height_m, double radius_m, int triangles) {
   return accel::pack(
       assets::grown::grow(assets::grown::form_of(name, height_m, radius_m), height_m, radius_m, 3, {triangles}));
+}
+
+scene::PlantModel with_impostor(scene::PlantModel model) {
+  model.impostor = std::make_shared<const Impostor>(impostor_of(model));
+  return model;
 }
 
 V3 any_direction(silvasim::base::Stream& random) {
@@ -67,8 +75,8 @@ TEST_P(OfPlants, CoversWhatTheModelCovers) {
 }
 
 TEST_P(OfPlants, ItsPointsLieOnTheModelAndKnowWhatBarsThem) {
-  const scene::PlantModel model = grown(GetParam(), 20, 4, 8000);
-  const Impostor impostor = impostor_of(model);
+  const scene::PlantModel model = with_impostor(grown(GetParam(), 20, 4, 8000));
+  const Impostor& impostor = *model.impostor;
   silvasim::base::Stream random(8, silvasim::base::Purpose::impostor, 2);
   int asked = 0, barred_by_model = 0, barred_by_impostor = 0;
   while (asked < 4000) {
@@ -93,11 +101,51 @@ TEST_P(OfPlants, ItsPointsLieOnTheModelAndKnowWhatBarsThem) {
     std::uint8_t answer = 0;
     accel::bar_model(model, std::span(&ray, 1), std::span(&answer, 1));
     barred_by_model += answer;
-    barred_by_impostor += scene::is_barred(point, towards, chance);
+    barred_by_impostor += shade::is_barred(model, met, towards, chance);
     ++asked;
   }
   EXPECT_GT(barred_by_model, asked / 10);
   EXPECT_NEAR(static_cast<double>(barred_by_impostor) / asked, static_cast<double>(barred_by_model) / asked, 0.03);
+}
+
+// Two threads ask a model's points in different orders, another asks a copy alone: all are told the same.
+TEST_P(OfPlants, ItsOwnShadowHangsOnNoOrder) {
+  const scene::PlantModel together = with_impostor(grown(GetParam(), 20, 4, 4000));
+  scene::PlantModel alone = together;
+  alone.impostor = std::make_shared<const Impostor>(*together.impostor);
+  struct Question {
+    std::uint32_t point;
+    V3 towards;
+    std::uint64_t chance;
+  };
+  std::vector<Question> questions;
+  silvasim::base::Stream random(9, silvasim::base::Purpose::impostor, 3);
+  while (questions.size() < 20000) {
+    const V3 direction = any_direction(random);
+    const std::uint64_t chance = scene::mixed(random.next_u32() * 0x9E3779B97F4A7C15u);
+    const std::uint32_t met =
+        scene::meet_impostor(*together.impostor, any_origin(*together.impostor, direction, random), direction,
+                             chance % Impostor::sides, chance);
+    if (met == scene::no_point) continue;
+    V3 towards = any_direction(random);
+    towards.z = std::abs(towards.z);
+    questions.push_back({met, towards, chance});
+  }
+  std::vector<std::uint8_t> forwards(questions.size()), backwards(questions.size()), told(questions.size());
+  const auto ask = [&](const scene::PlantModel& model, bool from_end, std::vector<std::uint8_t>& answers) {
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+      const std::size_t at = from_end ? questions.size() - 1 - i : i;
+      answers[at] = shade::is_barred(model, questions[at].point, questions[at].towards, questions[at].chance);
+    }
+  };
+  std::thread other([&] { ask(together, true, backwards); });
+  ask(together, false, forwards);
+  other.join();
+  ask(alone, false, told);
+  EXPECT_EQ(forwards, told);
+  EXPECT_EQ(backwards, told);
+  ask(alone, true, forwards);
+  EXPECT_EQ(forwards, told) << "asked again";
 }
 
 INSTANTIATE_TEST_SUITE_P(Impostor, OfPlants, ::testing::Values("Fagus sylvatica", "Picea abies", "Betula pendula"));
