@@ -7,6 +7,7 @@
 // Threads: parallel inside, by blocks of 16 x 16 pixels. Cost: docs/performance.md.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "silvasim/base/progress.h"
@@ -16,6 +17,7 @@
 #include "silvavis/shade/haze.h"
 #include "silvavis/shade/land.h"
 #include "silvavis/shade/sky.h"
+#include "silvavis/shade/sky_rays.h"
 
 namespace silvavis {
 
@@ -24,9 +26,16 @@ struct Light {
   shade::Sky sky;
   shade::Haze haze;
   shade::Sky over_land;
+  shade::SkyRays sky_rays;
+  Rgb among;  // radiance of what bars the sky from leaves and ground: they see each other
 
   explicit Light(const shade::SkyOptions& options, const shade::HazeOptions& haze_options = {})
-      : sky(options), haze(sky, haze_options), over_land(shade::at_land(options)) {}
+      : sky(options), haze(sky, haze_options), over_land(shade::at_land(options)), sky_rays(over_land) {
+    // What a mean wood shows; shade::sent_back() measures it in the scene itself.
+    const Rgb lit =
+        over_land.sun_irradiance() * std::max(over_land.sun_direction().z, 0.0f) + over_land.sky_irradiance();
+    among = lit * Rgb(0.045f, 0.070f, 0.025f) * (0.35f / shade::pi);
+  }
 };
 
 struct RenderOptions {

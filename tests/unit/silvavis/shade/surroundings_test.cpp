@@ -32,9 +32,16 @@ std::vector<Rgb> colours() {
   return all;
 }
 
+Surroundings around_of(const scene::Ground& ground) {
+  std::vector<Rgb> usual;
+  for (std::size_t i = 0; i < Surroundings::shades; ++i)
+    usual.push_back(Rgb(0.025f, 0.05f, 0.02f) * (0.6f + 0.8f * (static_cast<float>(i) + 0.5f) / Surroundings::shades));
+  return Surroundings(ground, {ground.west, ground.south, ground.east(), ground.north()}, colours(), usual);
+}
+
 TEST(Surroundings, GoOnFromTheBorderAndEndAsAPlain) {
   const scene::Ground ground = hills();
-  const Surroundings around(ground, colours());
+  const Surroundings around = around_of(ground);
   silvasim::base::Stream stream(5, silvasim::base::Purpose::selection);
   for (int i = 0; i < 500; ++i) {
     const double t = stream.next_double();
@@ -56,7 +63,7 @@ TEST(Surroundings, GoOnFromTheBorderAndEndAsAPlain) {
 
 TEST(Surroundings, RaysMeetThemWhereTheyAre) {
   const scene::Ground ground = hills();
-  const Surroundings around(ground, colours());
+  const Surroundings around = around_of(ground);
   silvasim::base::Stream stream(6, silvasim::base::Purpose::selection);
   int met = 0;
   for (int i = 0; i < 1500; ++i) {
@@ -104,7 +111,7 @@ TEST(Surroundings, RaysMeetThemWhereTheyAre) {
 
 TEST(Surroundings, HideASceneOnlyFromEyesOutside) {
   const scene::Ground ground = hills();
-  const Surroundings around(ground, colours());
+  const Surroundings around = around_of(ground);
   Surroundings::Point point;
   accel::Ray ray;  // from within, to a hit within
   ray.origin = {0, 0, 600};
@@ -121,7 +128,7 @@ TEST(Surroundings, HideASceneOnlyFromEyesOutside) {
 
 TEST(Surroundings, HaveTheBordersColoursNearAndTheirMeanFar) {
   const scene::Ground ground = hills();
-  const Surroundings around(ground, colours());
+  const Surroundings around = around_of(ground);
   // Down on the east and the west, many times for the patches' mean.
   const auto mean = [&](double x0, double x1) {
     Rgb sum(0, 0, 0);
@@ -138,7 +145,7 @@ TEST(Surroundings, HaveTheBordersColoursNearAndTheirMeanFar) {
     }
     return sum / static_cast<float>(count);
   };
-  const Rgb east = mean(ground.east() + 2, ground.east() + 60), west = mean(ground.west - 60, ground.west - 2);
+  const Rgb east = mean(ground.east() + 0.5, ground.east() + 5), west = mean(ground.west - 5, ground.west - 0.5);
   EXPECT_NEAR(east.x / east.y, 0.02f / 0.05f, 0.06f);  // the second side
   EXPECT_NEAR(west.x / west.y, 0.04f / 0.05f, 0.06f);  // the fourth
   const Rgb far = mean(30000, 90000);
