@@ -42,7 +42,8 @@ struct RenderOptions {
   shade::Camera camera;  // world space
   int samples = 16;      // the most a pixel gets
   double error = 0.02;  // a pixel ends below this standard error of its square-rooted luminance; 0: all get all samples
-  int sky_rays = 1;     // 0: the sky without shadows of its own
+  double brightening = 1;  // by which that will be multiplied when the picture is shown: 2^(stops / 2)
+  int sky_rays = 1;        // 0: the sky without shadows of its own
   bool sun_shadows = true;
   bool lod = true;    // simpler models where a pixel is wider than their leaves
   bool aovs = false;  // depth, normal, species, plant

@@ -38,6 +38,14 @@ float fresnel_of_water(float cosine) {
   return 0.02f + 0.98f * grazing * grazing * grazing * grazing * grazing;  // Schlick 1994
 }
 
+// A place on the sun's disc: what stands high above the ground casts soft shadows.
+V3 on_disc(const V3& sun, float u, float v) {
+  const float r = static_cast<float>(shade::Atmosphere::sun_radius_rad) * std::sqrt(u);
+  const float angle = 2 * std::numbers::pi_v<float> * v;
+  const V3 side = std::abs(sun.z) < 0.9f ? V3(-sun.y, sun.x, 0).normalized() : V3(0, sun.z, -sun.y).normalized();
+  return (sun + (side * std::cos(angle) + sun.cross(side) * std::sin(angle)) * r).normalized();
+}
+
 // Where a shadow ray may begin: off the surface by what rounding needs.
 double lift(double distance_m) { return 2e-3 + 1e-6 * distance_m; }
 
@@ -66,7 +74,7 @@ bool has_enough(const Pixel& pixel, const RenderOptions& options) {
   if (options.error <= 0 || pixel.samples < least_samples) return false;
   const double n = pixel.samples, mean = pixel.tone / n;
   const double variance = std::max(0.0, pixel.tone_squared / n - mean * mean) / (n - 1);
-  return std::sqrt(variance) < options.error;
+  return std::sqrt(variance) < options.error / options.brightening;
 }
 
 Sampler::Sampler(const scene::Scene& scene, const accel::Tracer& tracer, const Light& light, const shade::Land& land,
@@ -213,7 +221,9 @@ void Sampler::add_sun() {
       samples_[i].light += sample.point.reflectance * light_.over_land.sun_irradiance() * sunny;
       continue;
     }
-    if (!shade::ray_from(sample.point, sample.hit, sun, lift(sample.distance_m), ray) && options_.sun_shadows) continue;
+    const V3 towards = on_disc(sun, sample.draws[2], sample.draws[3]);
+    if (!shade::ray_from(sample.point, sample.hit, towards, lift(sample.distance_m), ray) && options_.sun_shadows)
+      continue;
     ray.width_m = width_at(sample);
     rays_.push_back(ray);
     askers_.push_back(i);

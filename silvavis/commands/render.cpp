@@ -6,9 +6,11 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "silvasim/base/error.h"
 #include "silvasim/base/machine.h"
+#include "silvasim/base/math.h"
 #include "silvasim/base/parallel.h"
 #include "silvavis/commands/cameras.h"
 #include "silvavis/image/file.h"
@@ -147,12 +149,13 @@ void render(const RenderOptions& options) {
   settings.camera = camera_for(options, stage->scene);
   set_light(*stage, options.stage, settings.camera.eye.z, haze_for(options, *stage, settings.camera.eye));
   const auto begin = std::chrono::steady_clock::now();
+  if (!write.exposure_stops) write.exposure_stops = metered_exposure(*stage, settings);
+  settings.brightening = silvasim::base::exp(0.5 * std::numbers::ln2 * *write.exposure_stops);
   RenderStatistics statistics;
   image::Frame frame =
       silvavis::render(stage->scene, *stage->tracer, *stage->light, stage->land, settings, progress, &statistics);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   keep_asked(frame, options.aovs);
-  if (!write.exposure_stops) write.exposure_stops = metered_exposure(*stage, settings);
   write.metadata = metadata_of(*stage, settings.camera);
   const std::size_t models = stage->scene.models.size(), tracer_bytes = stage->tracer->bytes();
   // Writing needs memory too, and plants no longer do.

@@ -14,9 +14,7 @@ namespace {
 constexpr float mean_inside = 0.69f;
 
 // How much is left of what is `size_m` wide.
-float shown(double size_m, double width_m) {
-  return static_cast<float>(std::clamp(1.5 - 2 * width_m / size_m, 0.0, 1.0));
-}
+float shown(double size_m, double width_m) { return static_cast<float>(std::clamp(1.8 - width_m / size_m, 0.0, 1.0)); }
 
 // Cells that differ by `tones`, with gaps between them that are darker by `gaps`.
 float cells(double x, double y, double size_m, double width_m, float tones, float gaps) {
@@ -28,8 +26,8 @@ float cells(double x, double y, double size_m, double width_m, float tones, floa
 
 // Long and thin, every way: each tuft leans to a side of its own.
 float blades(double x, double y, double width_m) {
-  constexpr double wide_m = 0.022, long_m = 0.16, tuft_m = 0.3;
-  const float there = shown(2.5 * wide_m, width_m);
+  constexpr double wide_m = 0.025, long_m = 0.28, tuft_m = 0.4;
+  const float there = shown(1.5 * wide_m, width_m);
   if (there <= 0) return 0;
   float sum = 0;
   for (int layer = 0; layer < 2; ++layer) {
@@ -43,24 +41,26 @@ float blades(double x, double y, double width_m) {
 }
 
 Rgb grass(double x, double y, double width_m) {
-  const float clumps = patches(x + 331, y - 57, 1.7, width_m) - 0.5f, tufts = lumps(x - 5, y + 3, 0.3, width_m) - 0.5f;
+  const float clumps = patches(x + 331, y - 57, 1.7, width_m) - 0.5f;
+  const float tussocks = patches(x - 5, y + 3, 0.4, width_m) - 0.5f,
+              tufts = patches(x + 3, y - 8, 0.11, width_m) - 0.5f;
   const float blade = blades(x, y, width_m);
   // Lit blades are yellower than the shade between them.
-  const float light = 1 + 0.8f * clumps + 0.7f * tufts + 1.2f * blade, dry = 0.5f * clumps + 0.5f * blade;
-  return Rgb(1 + 0.5f * dry, 1, 1 - 0.2f * dry) * std::max(light, 0.15f);
+  const float light = 1 + 0.5f * clumps + tussocks + 1.2f * tufts + 2 * blade;
+  const float dry = 0.5f * clumps + 0.5f * tussocks + 0.4f * tufts + 0.8f * blade;
+  return Rgb(1 + 0.5f * dry, 1, 1 - 0.2f * dry) * std::max(light, 0.12f);
 }
 
 Rgb litter(double x, double y, double width_m) {
   const float heaps = patches(x + 331, y - 57, 1.1, width_m) - 0.5f;
   const float leaf = cells(x, y, 0.075, width_m, 1.0f, 0.5f), small = cells(x + 7, y - 3, 0.031, width_m, 0.6f, 0.2f);
-  const float light = 1 + 0.9f * heaps + leaf + small;
+  const float light = 1 + 0.6f * heaps + leaf + small;
   return Rgb(1 + 0.25f * leaf, 1, 1 - 0.2f * leaf) * std::max(light, 0.15f);
 }
 
 float earth(double x, double y, double width_m) {
   return std::max(0.3f, 1 + 0.8f * (patches(x + 331, y - 57, 0.9, width_m) - 0.5f) +
-                            0.7f * (patches(x - 13, y + 91, 0.07, width_m) - 0.5f) +
-                            cells(x, y, 0.21, width_m, 0.25f, 0.1f));
+                            0.7f * (patches(x - 13, y + 91, 0.07, width_m) - 0.5f));
 }
 
 float scree(double x, double y, double width_m) {

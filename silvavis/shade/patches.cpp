@@ -19,7 +19,7 @@ std::uint32_t place_hash(std::int32_t i, std::int32_t j) {
 }
 
 float lumps(double x, double y, double size_m, double width_m) {
-  const auto shown = static_cast<float>(std::clamp(1.5 - 2 * width_m / size_m, 0.0, 1.0));
+  const auto shown = static_cast<float>(std::clamp(1.8 - width_m / size_m, 0.0, 1.0));
   if (shown <= 0) return 0.5f;
   const double u = x / size_m, v = y / size_m;
   const double fu = std::floor(u), fv = std::floor(v);
