@@ -11,7 +11,7 @@ namespace silvavis::shade {
 namespace {
 
 // Means of Flake::inside, over the plane: what gaps take away.
-constexpr float mean_inside = 0.69f;
+constexpr float mean_inside = 0.637f;
 
 // How much is left of what is `size_m` wide.
 float shown(double size_m, double width_m) { return static_cast<float>(std::clamp(1.8 - width_m / size_m, 0.0, 1.0)); }
@@ -45,9 +45,9 @@ Rgb grass(double x, double y, double width_m) {
   const float tussocks = patches(x - 5, y + 3, 0.4, width_m) - 0.5f,
               tufts = patches(x + 3, y - 8, 0.11, width_m) - 0.5f;
   const float blade = blades(x, y, width_m);
-  // Lit blades are yellower than the shade between them.
-  const float light = 1 + 0.5f * clumps + tussocks + 1.2f * tufts + 2 * blade;
-  const float dry = 0.5f * clumps + 0.5f * tussocks + 0.4f * tufts + 0.8f * blade;
+  // Some is dry; lit blades are yellower than the shade between them.
+  const float light = 1 + 0.5f * clumps + 0.8f * tussocks + 0.8f * tufts + 1.2f * blade;
+  const float dry = 0.5f * (patches(x - 77, y + 31, 0.7, width_m) - 0.5f) + 0.3f * blade;
   return Rgb(1 + 0.5f * dry, 1, 1 - 0.2f * dry) * std::max(light, 0.12f);
 }
 

@@ -235,16 +235,17 @@ SentBack sent_back(const Overhead& overhead, const Sky& sky, const Rgb& albedo) 
   const bool day = luminance(sky.sun_irradiance()) > 0;
   struct View {
     Rgb light{0, 0, 0}, closed{0, 0, 0}, near{0, 0, 0}, near_closed{0, 0, 0};
-    float land = 0, met_near = 0;
+    float land = 0, met_near = 0;  // numbers; the second weighted by how much light each stands for
   };
   std::array<View, count> views;
   // Sun and sky on all that was met, of a light of 1 / pi; and which ray to the sky is barred, and how much light it stands for.
   struct Lit {
     std::vector<Rgb> light, closed;
     std::vector<accel::Ray> barred;
+    std::vector<float> weights;  // of those
   };
   const auto light_on = [&](const std::vector<Met>& met, std::size_t first) {
-    Lit lit{std::vector<Rgb>(met.size(), Rgb(0, 0, 0)), std::vector<Rgb>(met.size(), Rgb(0, 0, 0)), {}};
+    Lit lit{std::vector<Rgb>(met.size(), Rgb(0, 0, 0)), std::vector<Rgb>(met.size(), Rgb(0, 0, 0)), {}, {}};
     Lamps sunlight(overhead);
     std::vector<accel::Ray> rays;
     std::vector<std::size_t> askers;
@@ -256,6 +257,7 @@ SentBack sent_back(const Overhead& overhead, const Sky& sky, const Rgb& albedo) 
       const V3 towards = direction_of(even(first + i, 0.8191725), 2 * even(first + i, 0.6710436) - 1);
       const float facing = met[i].point.normal.dot(towards);
       const Rgb share = (facing > 0 ? met[i].point.reflectance : met[i].point.transmittance) * (4 * std::abs(facing));
+      if (luminance(share) <= 0) continue;
       accel::Ray ray;
       if (!ray_from(met[i].point, met[i].hit, towards, lift_m, ray)) {
         lit.closed[i] += share;
@@ -273,6 +275,7 @@ SentBack sent_back(const Overhead& overhead, const Sky& sky, const Rgb& albedo) 
       if (barred[k]) {
         lit.closed[askers[k]] += shares[k];
         lit.barred.push_back(rays[k]);
+        lit.weights.push_back(luminance(shares[k]));
       } else {
         lit.light[askers[k]] += shares[k] * sky.radiance(rays[k].direction);
       }
@@ -298,9 +301,10 @@ SentBack sent_back(const Overhead& overhead, const Sky& sky, const Rgb& albedo) 
     const std::vector<Met> near = met_by(overhead, lit.barred);
     const Lit near_lit = light_on(near, number * a_view + 7);
     for (std::size_t i = 0; i < near.size(); ++i) {
-      view.met_near += near[i].land ? 1.0f : 0.0f;
-      view.near += near_lit.light[i];
-      view.near_closed += near_lit.closed[i];
+      const float weight = near[i].land ? lit.weights[i] : 0.0f;
+      view.met_near += weight;
+      view.near += near_lit.light[i] * weight;
+      view.near_closed += near_lit.closed[i] * weight;
     }
   });
   SentBack result;

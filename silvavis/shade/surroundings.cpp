@@ -46,6 +46,7 @@ Surroundings::Surroundings(const scene::Ground& ground, const silvasim::base::Bo
       level_m_(static_cast<double>(ground.pyramid.origin_m)),
       spread_m_(0.5 * std::min(box_.width(), box_.height())),
       usual_(usual) {
+  for (const Rgb& colour : usual_) usual_mean_ += colour / static_cast<float>(usual_.size());
   constexpr int count = 4 * parts;
   around_.resize(count + 1);
   most_m_ = level_m_;

@@ -78,6 +78,7 @@ class Surroundings {
   silvasim::base::Box box_, planted_;  // of heights, of colours
   double level_m_ = 0, most_m_ = 0, spread_m_ = 0;
   std::vector<Rgb> usual_;
+  Rgb usual_mean_{0, 0, 0};
   Views views_;
   std::vector<Part> around_;  // sums from the first part on: 4 * parts + 1
 };

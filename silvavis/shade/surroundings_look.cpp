@@ -59,13 +59,16 @@ Rgb Surroundings::colour_at(double x, double y, const V3& to_eye, float width_m)
   const double away = outside_planted(x, y), width = static_cast<double>(width_m);
   // Woods and fields as large as in the scene, with ragged edges. Noise gathers at its middle; the slope spreads it evenly over all shades.
   const double size = std::clamp(0.12 * spread_m_, 90.0, 1500.0);
-  const float field = 0.5f * patches(x, y, size, width) + 0.32f * patches(x + 877, y - 1409, 0.31 * size, width) +
-                      0.18f * patches(x - 2203, y + 557, 0.08 * size, width);
-  const float place = smooth(0.5f + 1.75f * (field - 0.5f));
+  const float field = 0.5f * patches(x, y, size) + 0.32f * patches(x + 877, y - 1409, 0.31 * size) +
+                      0.18f * patches(x - 2203, y + 557, 0.08 * size);
+  const float place = smooth(0.5f + 2.15f * (field - 0.5f));
   const float at = place * static_cast<float>(usual_.size() - 1);
   const auto i = std::min(static_cast<std::size_t>(at), usual_.size() - 2);
   const float s = std::clamp(3 * (at - static_cast<float>(i)) - 1, 0.0f, 1.0f);
   Rgb colour = usual_[i] * (1 - s) + usual_[i + 1] * s;
+  // Where a ray is wider than fields it sees all of them.
+  const auto shown = static_cast<float>(std::clamp(1.8 - width / (0.31 * size), 0.0, 1.0));
+  colour = usual_mean_ + (colour - usual_mean_) * shown;
   // The border's own colours end in tongues of all lengths.
   const double reach = std::max(60.0, 0.05 * spread_m_);
   const auto far = static_cast<float>(away / reach) * (0.4f + 1.2f * patches(x - 311, y + 71, 0.7 * reach, width));
@@ -75,7 +78,7 @@ Rgb Surroundings::colour_at(double x, double y, const V3& to_eye, float width_m)
   }
   // Crowns and the shade between them, most where it is dark. A ray meets the one or the other, however wide it is, as it does in the
   // scene: so the grain of both is alike.
-  const float wooded = 1 - place;
+  const float wooded = 0.5f + (0.5f - place) * shown;
   const float crowns = lumps(x + 17, y - 29, 8) + lumps(x - 43, y + 5, 3) - 1, groups = lumps(x, y, 31, width) - 0.5f;
   const float light = 1 + (0.5f + 1.1f * wooded) * crowns + (0.2f + 0.3f * wooded) * groups;
   return colour * views_.from(to_eye) * std::max(light, 0.1f);
