@@ -1,7 +1,6 @@
 #include "silvavis/sampler.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -10,8 +9,6 @@
 namespace silvavis {
 
 namespace {
-
-constexpr int least_samples = 16;
 
 // The pixels' filter is a Gaussian of standard deviation 0.45 pixels, cut at 1.5: samples are drawn from it and all count
 // the same (Ernst, Stamminger and Greiner 2006, filter importance sampling).
@@ -50,32 +47,6 @@ V3 on_disc(const V3& sun, float u, float v) {
 double lift(double distance_m) { return 2e-3 + 1e-6 * distance_m; }
 
 }  // namespace
-
-std::vector<Pixel> square_of(int left, int top, int side_px, int width, int height) {
-  const auto even_bits = [](unsigned code) {
-    int value = 0;
-    for (unsigned bit = 0; code >> (2 * bit) != 0; ++bit) value |= static_cast<int>(code >> (2 * bit) & 1) << bit;
-    return value;
-  };
-  const unsigned side = std::bit_ceil(static_cast<unsigned>(side_px));
-  std::vector<Pixel> pixels;
-  for (unsigned code = 0; code < side * side; ++code) {
-    const int column = even_bits(code), row = even_bits(code >> 1);
-    if (column < std::min(side_px, width - left) && row < std::min(side_px, height - top))
-      pixels.push_back({left + column, top + row});
-  }
-  return pixels;
-}
-
-bool has_enough(const Pixel& pixel, const RenderOptions& options) {
-  if (pixel.samples >= options.samples) return true;
-  if (pixel.samples % samples_a_pass != 0) return false;
-  // Fewer would end where chance made a pixel dark and even, and darken the picture.
-  if (options.error <= 0 || pixel.samples < least_samples) return false;
-  const double n = pixel.samples, mean = pixel.tone / n;
-  const double variance = std::max(0.0, pixel.tone_squared / n - mean * mean) / (n - 1);
-  return std::sqrt(variance) < options.error / options.brightening;
-}
 
 Sampler::Sampler(const scene::Scene& scene, const accel::Tracer& tracer, const Light& light, const shade::Land& land,
                  const RenderOptions& options, const shade::Lens& lens, image::Frame* channels)
