@@ -113,6 +113,8 @@ silvavis::RenderOptions settings_of(const RenderOptions& options) {
   silvavis::RenderOptions settings;
   settings.samples = options.samples;
   settings.error = options.error;
+  if (options.exposure_stops)
+    settings.brightening = silvasim::base::exp(0.5 * std::numbers::ln2 * *options.exposure_stops);
   settings.sky_rays = options.sky_rays;
   settings.sun_shadows = options.shadows;
   settings.lod = options.stage.lod == "auto";
@@ -149,13 +151,12 @@ void render(const RenderOptions& options) {
   settings.camera = camera_for(options, stage->scene);
   set_light(*stage, options.stage, settings.camera.eye.z, haze_for(options, *stage, settings.camera.eye));
   const auto begin = std::chrono::steady_clock::now();
-  if (!write.exposure_stops) write.exposure_stops = metered_exposure(*stage, settings);
-  settings.brightening = silvasim::base::exp(0.5 * std::numbers::ln2 * *write.exposure_stops);
   RenderStatistics statistics;
   image::Frame frame =
       silvavis::render(stage->scene, *stage->tracer, *stage->light, stage->land, settings, progress, &statistics);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   keep_asked(frame, options.aovs);
+  if (!write.exposure_stops) write.exposure_stops = metered_exposure(*stage, settings);
   write.metadata = metadata_of(*stage, settings.camera);
   const std::size_t models = stage->scene.models.size(), tracer_bytes = stage->tracer->bytes();
   // Writing needs memory too, and plants no longer do.

@@ -128,12 +128,13 @@ Rgb mean_of(std::span<const Seen> seen, const Rgb& otherwise) {
 }
 
 // Cells of an even grid whose ground is no steeper than what may lie around a scene; all, where few are.
-std::vector<Point> gentle_places(const Overhead& o, int side) {
+// `rim`: so many rows along the border are left out.
+std::vector<Point> gentle_places(const Overhead& o, int side, int rim) {
   constexpr double steep = 0.3;
   const silvasim::base::Box& box = o.scene.extent;
   std::vector<Point> all, gentle;
-  for (int row = 0; row < side; ++row) {
-    for (int column = 0; column < side; ++column) {
+  for (int row = rim; row < side - rim; ++row) {
+    for (int column = rim; column < side - rim; ++column) {
       const Point at{box.west + (column + 0.5) * box.width() / side, box.south + (row + 0.5) * box.height() / side};
       all.push_back(at);
       const V3 up = scene::ground_normal(o.scene.ground, at.x, at.y);
@@ -182,7 +183,7 @@ std::vector<Rgb> usual_colours(const Overhead& overhead, const Rgb& otherwise) {
   constexpr std::size_t a_place = 24;
   const silvasim::base::Box& box = overhead.scene.extent;
   const double width = box.width() / side, height = box.height() / side;
-  const std::vector<Point> cells = gentle_places(overhead, side);
+  const std::vector<Point> cells = gentle_places(overhead, side, 0);
   std::vector<Point> places;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     for (std::size_t k = 0; k < a_place; ++k) {
@@ -228,9 +229,9 @@ std::vector<Rgb> usual_colours(const Overhead& overhead, const Rgb& otherwise) {
 }
 
 SentBack sent_back(const Overhead& overhead, const Sky& sky, const Rgb& albedo) {
-  constexpr std::size_t a_view = 384, count = Views::sides * Views::heights;
-  constexpr float width_m = 0.5f;  // as in overviews
-  const std::vector<Point> gentle = gentle_places(overhead, 64);
+  constexpr std::size_t a_view = 512, count = Views::sides * Views::heights;
+  constexpr float width_m = 0;  // full models: the same light with and without levels of detail
+  const std::vector<Point> gentle = gentle_places(overhead, 64, 12);  // woods' edges have more light
   const V3& sun = sky.sun_direction();
   const bool day = luminance(sky.sun_irradiance()) > 0;
   struct View {
