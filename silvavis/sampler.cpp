@@ -1,7 +1,6 @@
 #include "silvavis/sampler.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -10,8 +9,6 @@
 namespace silvavis {
 
 namespace {
-
-constexpr int least_samples = 16;
 
 // The pixels' filter is a Gaussian of standard deviation 0.45 pixels, cut at 1.5: samples are drawn from it and all count
 // the same (Ernst, Stamminger and Greiner 2006, filter importance sampling).
@@ -38,36 +35,18 @@ float fresnel_of_water(float cosine) {
   return 0.02f + 0.98f * grazing * grazing * grazing * grazing * grazing;  // Schlick 1994
 }
 
+// A place on the sun's disc: what stands high above the ground casts soft shadows.
+V3 on_disc(const V3& sun, float u, float v) {
+  const float r = static_cast<float>(shade::Atmosphere::sun_radius_rad) * std::sqrt(u);
+  const float angle = 2 * std::numbers::pi_v<float> * v;
+  const V3 side = std::abs(sun.z) < 0.9f ? V3(-sun.y, sun.x, 0).normalized() : V3(0, sun.z, -sun.y).normalized();
+  return (sun + (side * std::cos(angle) + sun.cross(side) * std::sin(angle)) * r).normalized();
+}
+
 // Where a shadow ray may begin: off the surface by what rounding needs.
 double lift(double distance_m) { return 2e-3 + 1e-6 * distance_m; }
 
 }  // namespace
-
-std::vector<Pixel> square_of(int left, int top, int side_px, int width, int height) {
-  const auto even_bits = [](unsigned code) {
-    int value = 0;
-    for (unsigned bit = 0; code >> (2 * bit) != 0; ++bit) value |= static_cast<int>(code >> (2 * bit) & 1) << bit;
-    return value;
-  };
-  const unsigned side = std::bit_ceil(static_cast<unsigned>(side_px));
-  std::vector<Pixel> pixels;
-  for (unsigned code = 0; code < side * side; ++code) {
-    const int column = even_bits(code), row = even_bits(code >> 1);
-    if (column < std::min(side_px, width - left) && row < std::min(side_px, height - top))
-      pixels.push_back({left + column, top + row});
-  }
-  return pixels;
-}
-
-bool has_enough(const Pixel& pixel, const RenderOptions& options) {
-  if (pixel.samples >= options.samples) return true;
-  if (pixel.samples % samples_a_pass != 0) return false;
-  // Fewer would end where chance made a pixel dark and even, and darken the picture.
-  if (options.error <= 0 || pixel.samples < least_samples) return false;
-  const double n = pixel.samples, mean = pixel.tone / n;
-  const double variance = std::max(0.0, pixel.tone_squared / n - mean * mean) / (n - 1);
-  return std::sqrt(variance) < options.error;
-}
 
 Sampler::Sampler(const scene::Scene& scene, const accel::Tracer& tracer, const Light& light, const shade::Land& land,
                  const RenderOptions& options, const shade::Lens& lens, image::Frame* channels)
@@ -79,10 +58,6 @@ Sampler::Sampler(const scene::Scene& scene, const accel::Tracer& tracer, const L
       lens_(lens),
       channels_(channels),
       sequence_(options.seed, 0, 0, options.samples) {
-  // What a surface sees where its way to the sky is barred: leaves and ground in half shade.
-  const shade::Sky& sky = light.over_land;
-  const Rgb lit = sky.sun_irradiance() * std::max(sky.sun_direction().z, 0.0f) + sky.sky_irradiance();
-  surroundings_ = lit * Rgb(0.045f, 0.070f, 0.025f) * (0.35f / std::numbers::pi_v<float>);
   eye_height_ = static_cast<float>(std::max(0.0, lens.eye.z - static_cast<double>(scene.ground.pyramid.origin_m)));
   constexpr auto earth_m = static_cast<float>(shade::Atmosphere::ground_radius_m);
   horizon_m_ = std::sqrt(2 * earth_m * std::max(eye_height_, 2.0f));
@@ -126,6 +101,12 @@ void Sampler::meet(Sample& sample, const accel::Hit& hit) const {
   } else if (hit.surface != accel::Surface::none) {
     sample.lit = sample.in_shade = true;
     sample.point = shade::surface_at(scene_, land_, sample.ray, hit);
+    // Bare land beyond what is planted is like the land around it.
+    if (hit.surface == accel::Surface::ground && !land_.around.empty() && land_.drape.empty() && !sample.point.water &&
+        land_.around.outside_planted(sample.point.at.x, sample.point.at.y) > 0) {
+      sample.point.reflectance =
+          land_.around.colour_at(sample.point.at.x, sample.point.at.y, -sample.ray.direction, width_at(sample));
+    }
   }
 }
 
@@ -211,7 +192,9 @@ void Sampler::add_sun() {
       samples_[i].light += sample.point.reflectance * light_.over_land.sun_irradiance() * sunny;
       continue;
     }
-    if (!shade::ray_from(sample.point, sample.hit, sun, lift(sample.distance_m), ray) && options_.sun_shadows) continue;
+    const V3 towards = on_disc(sun, sample.draws[2], sample.draws[3]);
+    if (!shade::ray_from(sample.point, sample.hit, towards, lift(sample.distance_m), ray) && options_.sun_shadows)
+      continue;
     ray.width_m = width_at(sample);
     rays_.push_back(ray);
     askers_.push_back(i);
@@ -253,22 +236,30 @@ void Sampler::add_sky() {
         }
         continue;
       }
-      // Light from the one side or from the other, by how much each counts.
+      // Light from the one side or from the other, by how much each counts; some of it by where the sky is bright.
       const float front = luminance(sample.point.reflectance), back = luminance(sample.point.transmittance);
       if (front + back <= 0) continue;
-      const float share = front / (front + back);
-      const bool through = sample.draws[1] >= share;
-      const float v =
-          through ? (sample.draws[1] - share) / std::max(1 - share, 1e-6f) : sample.draws[1] / std::max(share, 1e-6f);
-      const float u = sample.draws[0] + 0.618034f * static_cast<float>(number);
-      const Rgb weight = (through ? sample.point.transmittance / std::max(1 - share, 1e-6f)
-                                  : sample.point.reflectance / std::max(share, 1e-6f)) /
-                         static_cast<float>(options_.sky_rays);
-      const V3 skyward = cosine_weighted(through ? -sample.point.normal : sample.point.normal, u - std::floor(u),
-                                         std::min(v, 0.999999f));
+      const float share = front / (front + back), by_light = light_.sky_rays.share();
+      const float shifted = sample.draws[0] + 0.618034f * static_cast<float>(number), u = shifted - std::floor(shifted);
+      V3 skyward;
+      if (u < by_light) {
+        skyward = light_.sky_rays.towards(u / by_light, sample.draws[1]);
+      } else {
+        const bool through = sample.draws[1] >= share;
+        const float v =
+            through ? (sample.draws[1] - share) / std::max(1 - share, 1e-6f) : sample.draws[1] / std::max(share, 1e-6f);
+        skyward = cosine_weighted(through ? -sample.point.normal : sample.point.normal, (u - by_light) / (1 - by_light),
+                                  std::min(v, 0.999999f));
+      }
+      const float facing = sample.point.normal.dot(skyward), cosine = std::abs(facing) / std::numbers::pi_v<float>;
+      const Rgb& colour = facing > 0 ? sample.point.reflectance : sample.point.transmittance;
+      const float density = (1 - by_light) * (facing > 0 ? share : 1 - share) * cosine +
+                            (by_light > 0 ? by_light * light_.sky_rays.density(skyward) : 0.0f);
+      if (!(density > 0) || luminance(colour) <= 0) continue;
+      const Rgb weight = colour * (cosine / (density * static_cast<float>(options_.sky_rays)));
       accel::Ray ray;
       if (!shade::ray_from(sample.point, sample.hit, skyward, lift(sample.distance_m), ray)) {
-        samples_[i].light += weight * surroundings_;
+        samples_[i].light += weight * light_.among;
         continue;
       }
       ray.width_m = width_at(sample);
@@ -281,7 +272,7 @@ void Sampler::add_sky() {
     statistics.shadow_rays += rays_.size();
     for (std::size_t k = 0; k < rays_.size(); ++k)
       samples_[askers_[k]].light +=
-          shares_[k] * (shaded_[k] ? surroundings_ : light_.over_land.radiance(rays_[k].direction));
+          shares_[k] * (shaded_[k] ? light_.among : light_.over_land.radiance(rays_[k].direction));
   }
 }
 

@@ -80,7 +80,6 @@ class Sampler {
   const shade::Lens lens_;
   image::Frame* const channels_;
   PixelSequence sequence_;
-  Rgb surroundings_{0, 0, 0};
   float eye_height_ = 0, horizon_m_ = 0;
   std::vector<Sample> samples_;
   std::vector<accel::Ray> rays_;

@@ -6,9 +6,11 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "silvasim/base/error.h"
 #include "silvasim/base/machine.h"
+#include "silvasim/base/math.h"
 #include "silvasim/base/parallel.h"
 #include "silvavis/commands/cameras.h"
 #include "silvavis/image/file.h"
@@ -104,6 +106,8 @@ silvavis::RenderOptions settings_of(const RenderOptions& options) {
   silvavis::RenderOptions settings;
   settings.samples = options.samples;
   settings.error = options.error;
+  if (options.exposure_stops)
+    settings.brightening = silvasim::base::exp(0.5 * std::numbers::ln2 * *options.exposure_stops);
   settings.sky_rays = options.sky_rays;
   settings.sun_shadows = options.shadows;
   settings.lod = options.stage.lod == "auto";

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "silvasim/base/error.h"
 #include "silvasim/base/words.h"
@@ -13,7 +14,6 @@
 #include "silvasim/fields/field_set.h"
 #include "silvavis/accel/embree.h"
 #include "silvavis/accel/nested.h"
-#include "silvavis/commands/overhead.h"
 #include "silvavis/flora.h"
 
 namespace silvavis::commands {
@@ -53,6 +53,10 @@ scene::Scene bare_scene(const silvasim::ecosystem::Ecosystem& ecosystem) {
   bare.extent = ecosystem.extent;
   bare.terrain = ecosystem.terrain;
   return scene::make_scene(std::move(bare), {});
+}
+
+shade::Overhead overhead_of(const Stage& stage, const shade::Land& land) {
+  return {stage.scene, *stage.tracer, land, scene_box(stage.scene).greatest_z_m + 10};
 }
 
 double mean_height(const scene::Ground& ground) {
@@ -99,12 +103,17 @@ std::unique_ptr<Stage> set_stage(const StageOptions& options, const silvasim::ba
   stage->seconds.tracer = seconds_since(mark);
 
   // Colours of classes are a map's, not the land's.
+  stage->mapped = options.land.classes.has_value();
   const shade::Land plain;
-  const OverheadColours colours = colours_from_above(
-      stage->scene, *stage->tracer, options.land.classes ? plain : stage->land, stage->albedo, options.surroundings);
-  stage->albedo = colours.albedo;
+  const shade::Overhead overhead = overhead_of(*stage, stage->mapped ? plain : stage->land);
+  stage->albedo = shade::albedo_from_above(overhead, stage->albedo);
   stage->land_height_m = mean_height(stage->scene.ground);
-  if (options.surroundings) stage->land.around = shade::Surroundings(stage->scene.ground, colours.border);
+  if (options.surroundings) {
+    const std::vector<Rgb> usual = shade::usual_colours(overhead, stage->albedo);
+    stage->usual_albedo = std::accumulate(usual.begin(), usual.end(), Rgb(0, 0, 0)) / static_cast<float>(usual.size());
+    stage->land.around = shade::Surroundings(stage->scene.ground, stage->scene.extent,
+                                             shade::border_colours(overhead, stage->albedo), usual);
+  }
 
   // Land without a place on the earth lies in the middle of Europe.
   if (frame.centre) {
@@ -136,6 +145,15 @@ void set_light(Stage& stage, const StageOptions& options, double eye_z_m, const 
   sky.eye_height_m = std::clamp(eye_z_m - static_cast<double>(stage.scene.ground.pyramid.origin_m), 2.0, 49e3);
   sky.land_height_m = std::min(sky.eye_height_m, stage.land_height_m);
   stage.light = std::make_unique<Light>(sky, haze);
+  // What the land sends back changes with the sun alone.
+  if (!stage.sent_back || sky.sun_direction != stage.sent_back_sun) {
+    const shade::Land plain;
+    stage.sent_back = shade::sent_back(overhead_of(stage, stage.mapped ? plain : stage.land), stage.light->over_land,
+                                       stage.usual_albedo);
+    stage.sent_back_sun = sky.sun_direction;
+    stage.land.around.show_as(stage.sent_back->views);
+  }
+  stage.light->among = stage.sent_back->among;
 }
 
 V3d world_point(const scene::Scene& scene, const std::string& text, const char* option) {

@@ -13,6 +13,7 @@
 #include "silvavis/commands/land.h"
 #include "silvavis/render.h"
 #include "silvavis/shade/camera.h"
+#include "silvavis/shade/overhead.h"
 #include "silvavis/shade/sun.h"
 
 namespace silvavis::commands {
@@ -48,7 +49,11 @@ struct Stage {
   shade::SunPosition sun;
   std::vector<std::vector<std::string>> model_sources;  // Flora::sources
   Rgb albedo{0.08f, 0.11f, 0.05f};                      // of the scene as a whole, for the sky above it
-  double land_height_m = 0;                             // mean height of the land above its lowest point
+  Rgb usual_albedo{0.08f, 0.11f, 0.05f};                // of its gentle land
+  std::optional<shade::SentBack> sent_back;             // under this sun:
+  V3 sent_back_sun{0, 0, 0};
+  bool mapped = false;       // the land shows a map of classes
+  double land_height_m = 0;  // mean height of the land above its lowest point
   // For the sun: where the scene's middle is, and how its grid is turned.
   double longitude_deg = 10, latitude_deg = 50, convergence_deg = 0;
   std::vector<std::string> warnings;

@@ -30,8 +30,9 @@ struct Land {
 };
 
 // Linear reflectance of dry land at a point, where `up` is the land's normal; what stands over it, and how high it lies, changes
-// the plain look.
-Rgb land_colour(const Land& land, double x, double y, const V3& up, double height_m = 0, const Crowns& crowns = {});
+// the plain look. What is finer than a ray of `width_m` evens out.
+Rgb land_colour(const Land& land, double x, double y, const V3& up, double height_m = 0, const Crowns& crowns = {},
+                double width_m = 0);
 bool is_water(const Land& land, double x, double y);
 
 }  // namespace silvavis::shade

@@ -45,7 +45,8 @@ scene::Turn turn_to(std::uint32_t side, const V3& direction) {
   return {is.ahead_x * was.ahead_x + is.ahead_y * was.ahead_y, was.ahead_x * is.ahead_y - was.ahead_y * is.ahead_x};
 }
 
-SurfacePoint ground_point(const scene::Scene& scene, const Land& land, const accel::Ray& ray, SurfacePoint point) {
+SurfacePoint ground_point(const scene::Scene& scene, const Land& land, const accel::Ray& ray, double distance_m,
+                          SurfacePoint point) {
   const scene::GroundPoint ground = scene::ground_at(scene.ground, point.at.x, point.at.y);
   point.plane = towards(V3(static_cast<float>(-ground.slope_x), static_cast<float>(-ground.slope_y), 1).normalized(),
                         ray.direction);
@@ -55,8 +56,12 @@ SurfacePoint ground_point(const scene::Scene& scene, const Land& land, const acc
     point.normal = point.plane = V3(0, 0, 1);
     point.reflectance = Rgb(0.012f, 0.020f, 0.022f);  // what comes back from below the surface
   } else {
-    point.reflectance =
-        land_colour(land, point.at.x, point.at.y, point.normal, point.at.z, crowns_over(scene, point.at.x, point.at.y));
+    // A slanting ray covers an ellipse; it stands for a circle of the same size.
+    const float facing = std::max(0.05f, -point.plane.dot(ray.direction));
+    const double width_m = (static_cast<double>(ray.width_m) + static_cast<double>(ray.spread) * distance_m) /
+                           std::sqrt(static_cast<double>(facing));
+    point.reflectance = land_colour(land, point.at.x, point.at.y, point.normal, point.at.z,
+                                    crowns_over(scene, point.at.x, point.at.y), width_m);
   }
   return point;
 }
@@ -66,7 +71,7 @@ SurfacePoint ground_point(const scene::Scene& scene, const Land& land, const acc
 SurfacePoint surface_at(const scene::Scene& scene, const Land& land, const accel::Ray& ray, const accel::Hit& hit) {
   SurfacePoint point;
   point.at = ray.origin + V3d(ray.direction) * hit.distance;
-  if (hit.surface == accel::Surface::ground) return ground_point(scene, land, ray, point);
+  if (hit.surface == accel::Surface::ground) return ground_point(scene, land, ray, hit.distance, point);
 
   const scene::PlantModel& full = *scene.models[hit.model];
   std::uint32_t slot = hit.slot;

@@ -39,10 +39,14 @@ std::array<double, 2> crossing(const silvasim::base::Box& box, const accel::Ray&
 
 }  // namespace
 
-Surroundings::Surroundings(const scene::Ground& ground, const std::vector<Rgb>& colours)
+Surroundings::Surroundings(const scene::Ground& ground, const silvasim::base::Box& planted,
+                           const std::vector<Rgb>& colours, const std::vector<Rgb>& usual)
     : box_{ground.west, ground.south, ground.east(), ground.north()},
+      planted_(planted),
       level_m_(static_cast<double>(ground.pyramid.origin_m)),
-      spread_m_(0.5 * std::min(box_.width(), box_.height())) {
+      spread_m_(0.5 * std::min(box_.width(), box_.height())),
+      usual_(usual) {
+  for (const Rgb& colour : usual_) usual_mean_ += colour / static_cast<float>(usual_.size());
   constexpr int count = 4 * parts;
   around_.resize(count + 1);
   most_m_ = level_m_;
@@ -67,7 +71,6 @@ Surroundings::Surroundings(const scene::Ground& ground, const std::vector<Rgb>& 
   for (int j = 0; j < ground.rows; ++j)
     most_m_ = std::max(
         {most_m_, static_cast<double>(ground.at(0, j)), static_cast<double>(ground.at(ground.columns - 1, j))});
-  colour_ = around_.back().colour / static_cast<float>(count);
 }
 
 double Surroundings::outside(double x, double y) const {
@@ -76,29 +79,29 @@ double Surroundings::outside(double x, double y) const {
 }
 
 // Mean over a stretch of the border around the nearest point, as wide as that is far.
-Surroundings::Part Surroundings::mean_near(double x, double y, double outside_m) const {
+Surroundings::Part Surroundings::mean_near(const silvasim::base::Box& box, double x, double y, double outside_m) const {
   constexpr int count = 4 * parts;
-  const double u = (std::clamp(x, box_.west, box_.east) - box_.west) / box_.width();
-  const double v = (std::clamp(y, box_.south, box_.north) - box_.south) / box_.height();
+  const double u = (std::clamp(x, box.west, box.east) - box.west) / box.width();
+  const double v = (std::clamp(y, box.south, box.north) - box.south) / box.height();
   // Beyond a corner both its sides meet.
   const double to_side[4] = {
-      y < box_.south ? box_.south - y : v * box_.height(), x > box_.east ? x - box_.east : (1 - u) * box_.width(),
-      y > box_.north ? y - box_.north : (1 - v) * box_.height(), x < box_.west ? box_.west - x : u * box_.width()};
+      y < box.south ? box.south - y : v * box.height(), x > box.east ? x - box.east : (1 - u) * box.width(),
+      y > box.north ? y - box.north : (1 - v) * box.height(), x < box.west ? box.west - x : u * box.width()};
   double along = 0;
-  if (x > box_.east && (y >= box_.south && y <= box_.north))
+  if (x > box.east && (y >= box.south && y <= box.north))
     along = 1 + v;
-  else if (x < box_.west && (y >= box_.south && y <= box_.north))
+  else if (x < box.west && (y >= box.south && y <= box.north))
     along = 4 - v;
-  else if (y < box_.south)
-    along = x > box_.east ? 1 : x < box_.west ? 4 : u;
-  else if (y > box_.north)
-    along = x > box_.east ? 2 : x < box_.west ? 3 : 3 - u;
+  else if (y < box.south)
+    along = x > box.east ? 1 : x < box.west ? 4 : u;
+  else if (y > box.north)
+    along = x > box.east ? 2 : x < box.west ? 3 : 3 - u;
   else {
     const auto side = std::min_element(std::begin(to_side), std::end(to_side)) - std::begin(to_side);
     along = side == 0 ? u : side == 1 ? 1 + v : side == 2 ? 3 - u : 4 - v;
   }
   const double middle = along * parts;
-  const double half = std::clamp(0.75 + outside_m / std::min(box_.width(), box_.height()) * parts, 0.75, count / 2.0);
+  const double half = std::clamp(0.75 + outside_m / std::min(box.width(), box.height()) * parts, 0.75, count / 2.0);
   const auto sum_to = [&](double part) {
     const double turns = std::floor(part / count), in_turn = part - turns * count;
     const auto i = std::min(static_cast<std::size_t>(in_turn), static_cast<std::size_t>(count - 1));
@@ -117,7 +120,7 @@ double Surroundings::height_at(const scene::Ground& ground, double x, double y) 
   const double away = outside(x, y);
   if (away >= spread_m_) return level_m_;
   const double near = scene::ground_at(ground, x, y).height_m;
-  const double mean = level_m_ + static_cast<double>(mean_near(x, y, away).height_m);
+  const double mean = level_m_ + static_cast<double>(mean_near(box_, x, y, away).height_m);
   const double even = smooth(away / (0.04 * spread_m_));
   return level_m_ + (near + (mean - near) * even - level_m_) * (1 - smooth(away / spread_m_));
 }
@@ -183,14 +186,8 @@ void Surroundings::show(const scene::Ground& ground, const accel::Ray& ray, Poin
                  north = height_at(ground, x, y + step) - height_at(ground, x, y - step);
     point.normal = V3(static_cast<float>(-east / (2 * step)), static_cast<float>(-north / (2 * step)), 1).normalized();
   }
-  const auto far = static_cast<float>(smooth(point.outside_m / (2 * spread_m_)));
-  const Rgb near = mean_near(x, y, 0.3 * point.outside_m).colour;
-  // Woods and fields, and crowns in them.
-  const double size = std::max(60.0, 0.02 * spread_m_);
-  const float fields = 0.5f * patches(x, y, 8 * size) + 0.5f * patches(x, y, size);
-  const float crown = patches(x, y, 11);
-  const float light = (0.62f + 0.6f * fields) * (0.5f + crown);
-  point.reflectance = (near + (colour_ - near) * far) * light;
+  const float width_m = ray.width_m + ray.spread * static_cast<float>(point.distance_m);
+  point.reflectance = colour_at(x, y, -ray.direction, width_m);
 }
 
 bool Surroundings::meet(const scene::Ground& ground, const accel::Ray& ray, double most_m, Point& point) const {

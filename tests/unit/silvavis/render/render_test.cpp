@@ -101,6 +101,25 @@ TEST(Render, ASampleMoreChangesLittleAndErrorsEndPixelsEarly) {
   EXPECT_NEAR(image::compare(early.colour, reference.colour).brightness_ratio, 1, 0.01);
 }
 
+// What dusk is brightened by, its errors are too.
+TEST(Render, ErrorsCountAsThePictureShowsThem) {
+  const scene::Scene scene = made_forest({});
+  const auto tracer = accel::make_nested(scene);
+  const Light light{shade::SkyOptions{}};
+  RenderOptions options = small_picture(scene, 250);
+  options.samples = 64;
+  options.error = 0.05;
+  RenderStatistics plain, brightened, finer;
+  render(scene, *tracer, light, {}, options, {}, &plain);
+  options.brightening = 2;
+  render(scene, *tracer, light, {}, options, {}, &brightened);
+  options.brightening = 1;
+  options.error = 0.025;
+  render(scene, *tracer, light, {}, options, {}, &finer);
+  EXPECT_GT(brightened.eye_rays, plain.eye_rays * 11 / 10);
+  EXPECT_EQ(brightened.eye_rays, finer.eye_rays);
+}
+
 // A mat of moss or a lawn: three hundred times as wide as high.
 TEST(Impostor, OfAFlatPlantTakesNoMoreThanSomeMegabytes) {
   assets::Model model = leaf_ball(100, 9, 4.5, false, 1);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "silvasim/base/random.h"
+#include "silvavis/shade/atmosphere.h"
 
 namespace silvavis::shade {
 namespace {
@@ -32,9 +33,16 @@ std::vector<Rgb> colours() {
   return all;
 }
 
+Surroundings around_of(const scene::Ground& ground) {
+  std::vector<Rgb> usual;
+  for (std::size_t i = 0; i < Surroundings::shades; ++i)
+    usual.push_back(Rgb(0.025f, 0.05f, 0.02f) * (0.6f + 0.8f * (static_cast<float>(i) + 0.5f) / Surroundings::shades));
+  return Surroundings(ground, {ground.west, ground.south, ground.east(), ground.north()}, colours(), usual);
+}
+
 TEST(Surroundings, GoOnFromTheBorderAndEndAsAPlain) {
   const scene::Ground ground = hills();
-  const Surroundings around(ground, colours());
+  const Surroundings around = around_of(ground);
   silvasim::base::Stream stream(5, silvasim::base::Purpose::selection);
   for (int i = 0; i < 500; ++i) {
     const double t = stream.next_double();
@@ -56,7 +64,7 @@ TEST(Surroundings, GoOnFromTheBorderAndEndAsAPlain) {
 
 TEST(Surroundings, RaysMeetThemWhereTheyAre) {
   const scene::Ground ground = hills();
-  const Surroundings around(ground, colours());
+  const Surroundings around = around_of(ground);
   silvasim::base::Stream stream(6, silvasim::base::Purpose::selection);
   int met = 0;
   for (int i = 0; i < 1500; ++i) {
@@ -104,7 +112,7 @@ TEST(Surroundings, RaysMeetThemWhereTheyAre) {
 
 TEST(Surroundings, HideASceneOnlyFromEyesOutside) {
   const scene::Ground ground = hills();
-  const Surroundings around(ground, colours());
+  const Surroundings around = around_of(ground);
   Surroundings::Point point;
   accel::Ray ray;  // from within, to a hit within
   ray.origin = {0, 0, 600};
@@ -121,7 +129,7 @@ TEST(Surroundings, HideASceneOnlyFromEyesOutside) {
 
 TEST(Surroundings, HaveTheBordersColoursNearAndTheirMeanFar) {
   const scene::Ground ground = hills();
-  const Surroundings around(ground, colours());
+  const Surroundings around = around_of(ground);
   // Down on the east and the west, many times for the patches' mean.
   const auto mean = [&](double x0, double x1) {
     Rgb sum(0, 0, 0);
@@ -138,12 +146,55 @@ TEST(Surroundings, HaveTheBordersColoursNearAndTheirMeanFar) {
     }
     return sum / static_cast<float>(count);
   };
-  const Rgb east = mean(ground.east() + 2, ground.east() + 60), west = mean(ground.west - 60, ground.west - 2);
+  const Rgb east = mean(ground.east() + 0.5, ground.east() + 5), west = mean(ground.west - 5, ground.west - 0.5);
   EXPECT_NEAR(east.x / east.y, 0.02f / 0.05f, 0.06f);  // the second side
   EXPECT_NEAR(west.x / west.y, 0.04f / 0.05f, 0.06f);  // the fourth
   const Rgb far = mean(30000, 90000);
   EXPECT_NEAR(far.x / far.y, 0.025f / 0.05f, 0.02f);
   EXPECT_NEAR(far.y, 0.05f, 0.006f);  // patches make nothing lighter or darker as a whole
+}
+
+// Far out each shade has its equal share, so the land around is as light as what it goes on from; crowns and groups change no mean.
+TEST(Surroundings, AreAPatchworkOfTheUsualColoursInEqualShares) {
+  const scene::Ground ground = hills();
+  std::vector<Rgb> usual;
+  for (std::size_t i = 0; i < Surroundings::shades; ++i) {
+    const float t = static_cast<float>(i) / (Surroundings::shades - 1);
+    usual.emplace_back(0.02f + 0.08f * t, 0.03f + 0.06f * t * t, 0.01f + 0.05f * t);
+  }
+  const Surroundings around(ground, {ground.west, ground.south, ground.east(), ground.north()}, colours(), usual);
+  silvasim::base::Stream stream(8, silvasim::base::Purpose::selection);
+  Rgb sum(0, 0, 0), expected(0, 0, 0);
+  double dark = 0;
+  constexpr int count = 40000;
+  for (int i = 0; i < count; ++i) {
+    const Rgb colour =
+        around.colour_at(2e4 + 2e5 * stream.next_double(), 2e5 * stream.next_double() - 1e5, V3(0, 0, 1), 0);
+    sum += colour / count;
+    dark += colour.x < 0.06f ? 1.0 / count : 0;
+  }
+  for (const Rgb& one : usual) expected += one / static_cast<float>(usual.size());
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], expected[c], 0.06f * expected[c]) << c;
+  EXPECT_NEAR(dark, 0.5, 0.08);
+  // Wide rays see the mean.
+  sum = Rgb(0, 0, 0);
+  for (int i = 0; i < 4000; ++i)
+    sum +=
+        around.colour_at(2e4 + 2e5 * stream.next_double(), 2e5 * stream.next_double() - 1e5, V3(0, 0, 1), 400) / 4000;
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], expected[c], 0.03f * expected[c]) << c;
+}
+
+TEST(Views, AreWhatWasMeasuredAndSmoothBetween) {
+  Views views;
+  silvasim::base::Stream stream(9, silvasim::base::Purpose::selection);
+  for (Rgb& share : views.shares) share = Rgb(stream.next_float(), stream.next_float(), stream.next_float());
+  for (std::size_t i = 0; i < views.shares.size(); ++i)
+    EXPECT_LT((views.from(Views::direction(i)) - views.shares[i]).length(), 1e-4f) << i;
+  for (int i = 0; i < 2000; ++i) {
+    const float turn = 2 * pi * stream.next_float(), sine = stream.next_float(), level = std::sqrt(1 - sine * sine);
+    const auto at = [&](float angle) { return views.from({std::sin(angle) * level, std::cos(angle) * level, sine}); };
+    EXPECT_LT((at(turn) - at(turn + 0.001f)).length(), 0.01f);
+  }
 }
 
 }  // namespace
