@@ -6,7 +6,7 @@
 // not hang on its company.
 #include "silvavis/accel/nested.h"
 #include "silvavis/accel/nested_bundle.h"
-#include "silvavis/accel/nested_packet.h"
+#include "silvavis/accel/nested_packet_sites.h"
 
 // No include guard: Highway includes it once for each target.
 HWY_BEFORE_NAMESPACE();
