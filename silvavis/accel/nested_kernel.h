@@ -51,6 +51,9 @@ struct Leaves {
     hwy::Prefetch(&layer.base_m[position]);
     hwy::Prefetch(&layer.step_m[position]);
     const std::uint64_t first = layer.first_slot[position], end = layer.first_slot[position + 1];
+    // Large tiles are fetched leaf by leaf (nested_sites.h): a ray asks for a small part of them.
+    constexpr std::uint64_t most_slots = 256;
+    if (end - first > most_slots) return;
     for (std::uint64_t slot = first; slot < end; slot += 64) hwy::Prefetch(layer.plant_species.data() + slot);
     for (std::uint64_t slot = first; slot < end; slot += 32) hwy::Prefetch(layer.plant_heights.data() + slot);
   }
