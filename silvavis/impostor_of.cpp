@@ -27,7 +27,7 @@ Impostor empty_impostor(const scene::PlantModel& model) {
                height = static_cast<double>(impostor.most_m - impostor.least_m);
   // From above, mats that are far wider than high would need texels without end.
   impostor.texel_m =
-      static_cast<float>(std::max({std::sqrt(width * height / texels_from_side), height / 200, width / 100}));
+      static_cast<float>(std::max({std::sqrt(width * height / texels_from_side), height / 200, width / 90}));
   const auto even = [&](double length) {
     return 2 *
            std::max(1u, static_cast<std::uint32_t>(std::lround(length / static_cast<double>(impostor.texel_m) / 2)));
@@ -44,6 +44,17 @@ Impostor empty_impostor(const scene::PlantModel& model) {
   impostor.covered.resize(texels);
   impostor.points.resize(texels / 4 * Impostor::points_a_block);
   return impostor;
+}
+
+float weight_of(std::uint16_t stored) { return static_cast<float>(stored) * (1.0f / 65535); }
+
+void keep(const scene::PlantModel& model, const accel::ModelRay& ray, Impostor::Point& point) {
+  accel::ModelPoint met;
+  accel::trace_model(model, std::span(&ray, 1), std::span(&met, 1));
+  point.slot = met.slot;
+  point.depth_m = met.t;
+  point.u = static_cast<std::uint16_t>(std::lround(met.u * 65535));
+  point.v = static_cast<std::uint16_t>(std::lround(met.v * 65535));
 }
 
 // The texels of one grid and their points.
@@ -86,13 +97,12 @@ void fill(const scene::PlantModel& model, int elevation, int side, Impostor& imp
             static_cast<std::uint8_t>((hits[k] * 255 + rays_a_texel / 2) / rays_a_texel);
       if (count == 0) continue;
       for (std::uint32_t k = 0; k < Impostor::points_a_block; ++k) {
-        accel::ModelPoint kept;
-        accel::trace_model(model, std::span(&rays[order[k % count]], 1), std::span(&kept, 1));
         Impostor::Point& point = impostor.points[block * Impostor::points_a_block + k];
-        point.slot = kept.slot;
-        point.depth_m = kept.t;
-        point.u = static_cast<std::uint16_t>(std::lround(kept.u * 65535));
-        point.v = static_cast<std::uint16_t>(std::lround(kept.v * 65535));
+        // A point at a hole's rim may be rounded into the hole: then the next ray's counts.
+        for (std::uint32_t next = 0; next < count; ++next) {
+          keep(model, rays[order[(k + next) % count]], point);
+          if (!scene::is_hole(model, point.slot, weight_of(point.u), weight_of(point.v))) break;
+        }
       }
     }
   }

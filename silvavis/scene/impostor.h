@@ -1,14 +1,14 @@
 // A plant from far away: for some directions a grid of what rays met when they were traced through the full model.
 //
-// A texel holds how much of it the plant covers; four of them share two of the very points that were met: a leaf or a piece of wood
-// of the full model, with its normal and colours, and the 64 directions of the upper hemisphere in which the plant itself bars the light. So
+// A texel holds how much of it the plant covers; four of them share four of the very points that were met: a leaf or a piece of wood
+// of the full model, with its normal and colours, and the 128 directions of the upper hemisphere in which the plant itself bars the light. So
 // coverage, colour and own shadow are the full model's in the mean, at the price of looking into a table instead of walking a
 // tree. What bars the light is found out where it is first asked for (shade/own_shadow.h): a picture asks for a small part of it.
 // The grid turns with who looks, about the stem, so nothing pops where an eye moves around a plant; between elevations
 // and at the edge of coverage a hash of ray and plant decides, so nothing pops there either.
 //
 // Units: metres of the model's space. A grid is as wide as the upright cylinder that holds the model, seen in its direction.
-// Memory: 0.4 MB a model. Made by silvavis/impostor_of.h.
+// Memory: 1.2 MB a model. Made by silvavis/impostor_of.h.
 // Source: Silva 2013, section 5 (impostors for a preview of 10 Hz).
 #pragma once
 
@@ -26,15 +26,16 @@ namespace silvavis::scene {
 struct Impostor {
   // Grids: of rays that travel down or up by so many degrees, even in the sine, and from so many sides.
   static constexpr int elevations = 12, sides = 3;
-  static constexpr int lamp_bands = 16, lamp_azimuths = 4, lamps = lamp_bands * lamp_azimuths;
-  static constexpr std::uint32_t points_a_block = 2;
+  static constexpr int lamp_bands = 8, lamp_azimuths = 16, lamps = lamp_bands * lamp_azimuths;
+  static constexpr std::uint32_t points_a_block = 4;
 
   struct Point {
-    mutable std::uint64_t barred = 0;  // by lamp: the plant itself is in the light's way. Only for shade/own_shadow.h
-    mutable std::uint32_t known = 0;   // by lamp / 2: the bits in `barred` are right
-    std::uint32_t slot = 0;            // triangle of the full model
-    float depth_m = 0;                 // along the direction, from the plane through the foot
-    std::uint16_t u = 0, v = 0;        // weights of corners 1 and 2, of 65535
+    // By lamp: the plant itself is in the light's way. Only for shade/own_shadow.h
+    mutable std::array<std::uint64_t, lamps / 64> barred{};
+    mutable std::uint32_t known = 0;  // by lamp / 4: the bits in `barred` are right
+    std::uint32_t slot = 0;           // triangle of the full model
+    float depth_m = 0;                // along the direction, from the plane through the foot
+    std::uint16_t u = 0, v = 0;       // weights of corners 1 and 2, of 65535
   };
 
   float radius_m = 1, least_m = 0, most_m = 1;

@@ -128,8 +128,8 @@ TEST(Progressive, CoarsePicturesAreAsBrightAsTheFinishedOne) {
   for (const double away : {120.0, 400.0, 1500.0}) {
     RenderOptions options = small_picture(scene, away);
     // So many squares that chance is well below what is asserted.
-    options.camera.width = 800;
-    options.camera.height = 450;
+    options.camera.width = 1600;
+    options.camera.height = 900;
     options.samples = 2;
     Progressive progressive(scene, *tracer, plain);
     progressive.look(light, options);
