@@ -5,9 +5,8 @@
 // files; of GeoJSON and CSV some gigabytes for the largest scene.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <chrono>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <functional>
 #include <vector>
@@ -49,10 +48,10 @@ double seconds_of_plain_bytes(const fs::path& path, std::uintmax_t bytes) {
 int main(int argc, char** argv) {
   int threads = 0;
   std::string scene = "puget-20km";
-  for (int i = 1; i + 1 < argc; i += 2) {
-    if (std::strcmp(argv[i], "--threads") == 0) threads = std::atoi(argv[i + 1]);
-    if (std::strcmp(argv[i], "--scene") == 0) scene = argv[i + 1];
-  }
+  CLI::App app("How fast each output is written, beside plain bytes");
+  app.add_option("--threads", threads, "0: all")->check(CLI::NonNegativeNumber);
+  app.add_option("--scene", scene, "a file of bench/scenes, without .xml")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
   const silvasim::base::ThreadLimit limit(threads);
   const fs::path file = fs::path(SILVA_SOURCE_DIR) / "bench" / "scenes" / (scene + ".xml");
   const fs::path folder = fs::temp_directory_path() / "silva-outputs";

@@ -3,15 +3,14 @@
 // table1 [--threads N] [--runs N]: prints Markdown; each time is the median of the runs, 3 by default.
 // The paper's machine: one thread of a Xeon E5520 of 2009.
 #include <fmt/format.h>
-#include <sys/resource.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <map>
 
+#include "cpu_clock.h"
 #include "silvasim/base/error.h"
 #include "silvasim/base/parallel.h"
 #include "silvasim/config/load.h"
@@ -44,21 +43,12 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-double cpu_seconds() {
-  struct rusage usage {};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) / 1e6;
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
 void measure(const Scene& scene, const fs::path& folder, int runs) {
   std::map<std::string, std::vector<double>> stages;
   unsigned long long plants = 0;
   const fs::path output = fs::temp_directory_path() / "silva-table1.silva";
   for (int run = 0; run < runs; ++run) {
-    const double cpu = cpu_seconds();
+    const double cpu = silva_bench::cpu_seconds();
     const auto start = std::chrono::steady_clock::now();
     const auto scenario =
         silvasim::config::load_scenario(folder / scene.file, std::nullopt, silvasim::evaluators::dialect());
@@ -67,7 +57,7 @@ void measure(const Scene& scene, const fs::path& folder, int runs) {
     silvasim::ecosystem::write(simulation.ecosystem, output);
     stages["write"].push_back(seconds_since(before));
     stages["total"].push_back(seconds_since(start));
-    stages["cpu"].push_back(cpu_seconds() - cpu);
+    stages["cpu"].push_back(silva_bench::cpu_seconds() - cpu);
     for (const auto& [stage, seconds] : simulation.report.seconds) stages[stage].push_back(seconds);
     plants = simulation.report.layers[0].plants;
   }
@@ -83,10 +73,10 @@ void measure(const Scene& scene, const fs::path& folder, int runs) {
 
 int main(int argc, char** argv) {
   int threads = 0, runs = 3;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    if (std::strcmp(argv[i], "--threads") == 0) threads = std::atoi(argv[i + 1]);
-    if (std::strcmp(argv[i], "--runs") == 0) runs = std::max(1, std::atoi(argv[i + 1]));
-  }
+  CLI::App app("The paper's Table 1: how long each stage of a run takes");
+  app.add_option("--threads", threads, "0: all")->check(CLI::NonNegativeNumber);
+  app.add_option("--runs", runs, "of which the median counts")->check(CLI::PositiveNumber);
+  CLI11_PARSE(app, argc, argv);
   const silvasim::base::ThreadLimit limit(threads);
   const fs::path folder = fs::path(SILVA_SOURCE_DIR) / "bench" / "scenes";
   fmt::print("Seconds, median of {} runs, {} threads.\n\n", runs, silvasim::base::thread_count());

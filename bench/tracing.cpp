@@ -8,12 +8,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
+#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <string>
@@ -38,6 +38,9 @@ namespace fs = std::filesystem;
 using namespace silvavis;
 
 constexpr int width = 1920, height = 1080;
+
+const std::vector<std::string> scenes{"unisb-3km", "puget-20km", "puget-40km"};
+const std::vector<std::string> ways{"Embree", "Embree, packets", "nested", "nested, levels"};
 
 struct Setup {
   int threads = 0, runs = 3, triangles = 160000;
@@ -153,14 +156,15 @@ Figures measure_apart(const fs::path& file, const std::string& way, const Setup&
 int main(int argc, char** argv) {
   silvasim::base::give_back_large_blocks();
   Setup setup;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    if (std::strcmp(argv[i], "--threads") == 0) setup.threads = std::atoi(argv[i + 1]);
-    if (std::strcmp(argv[i], "--runs") == 0) setup.runs = std::max(1, std::atoi(argv[i + 1]));
-    if (std::strcmp(argv[i], "--triangles") == 0) setup.triangles = std::atoi(argv[i + 1]);
-    if (std::strcmp(argv[i], "--scene") == 0) setup.scene = argv[i + 1];
-    if (std::strcmp(argv[i], "--way") == 0) setup.way = argv[i + 1];
-    if (std::strcmp(argv[i], "--view") == 0) setup.view = argv[i + 1];
-  }
+  CLI::App app("The nested trees beside one flat structure of Embree: memory, build and time");
+  app.add_option("--threads", setup.threads, "0: all")->check(CLI::NonNegativeNumber);
+  app.add_option("--runs", setup.runs, "of which the median counts")->check(CLI::PositiveNumber);
+  app.add_option("--triangles", setup.triangles, "of a model")->check(CLI::PositiveNumber);
+  app.add_option("--scene", setup.scene, "only this")->check(CLI::IsMember(scenes));
+  app.add_option("--way", setup.way, "only this")->check(CLI::IsMember(ways));
+  app.add_option("--view", setup.view, "only this")
+      ->check(CLI::IsMember(std::vector<std::string>(views.begin(), views.end())));
+  CLI11_PARSE(app, argc, argv);
   fmt::print(
       "Seconds a frame of {} x {}, one ray a pixel, median of {} runs (least CPU seconds); models of {} triangles.\n\n",
       width, height, setup.runs, setup.triangles);
@@ -168,17 +172,17 @@ int main(int argc, char** argv) {
   for (const char* view : views) fmt::print(" {} s |", view);
   fmt::print("\n|---|---|---|---|---|---|---|---|---|---|\n");
   const fs::path folder = fs::path(SILVA_SOURCE_DIR) / "bench" / "scenes";
-  for (const char* name : {"unisb-3km", "puget-20km", "puget-40km"}) {
+  for (const std::string& name : scenes) {
     if (!setup.scene.empty() && setup.scene != name) continue;
-    const fs::path file = fs::temp_directory_path() / (std::string("silva-tracing-") + name + ".silva");
+    const fs::path file = fs::temp_directory_path() / ("silva-tracing-" + name + ".silva");
     try {
       // Grown in a child too, so that no thread lives when the others are forked.
       const pid_t child = fork();
       if (child == 0) {
         int code = 0;
         try {
-          const auto scenario = silvasim::config::load_scenario(folder / (std::string(name) + ".xml"), std::nullopt,
-                                                                silvasim::evaluators::dialect());
+          const auto scenario =
+              silvasim::config::load_scenario(folder / (name + ".xml"), std::nullopt, silvasim::evaluators::dialect());
           silvasim::ecosystem::write(silvasim::simulate(scenario).ecosystem, file);
         } catch (const silvasim::base::Error& error) {
           fmt::print(stderr, "{}: {}\n", name, error.what());
@@ -189,7 +193,7 @@ int main(int argc, char** argv) {
       int status = 0;
       waitpid(child, &status, 0);
       if (status != 0) continue;
-      for (const char* way : {"Embree", "Embree, packets", "nested", "nested, levels"}) {
+      for (const std::string& way : ways) {
         if (!setup.way.empty() && setup.way != way) continue;
         const Figures f = measure_apart(file, way, setup);
         fmt::print("| {} | {} | {} | {:.2f} | {:.3f} | {:.1f} | {:.0f} |", name, f.plants, way, f.models_s,

@@ -6,7 +6,6 @@
 // --against CYCLES.exr holds the distances of what is seen against those of Cycles.
 // silva_frame --show IN.exr OUT.jpg --exposure STOPS: a picture, halved in size, through SilvaVis's tone curve.
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -17,6 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "cpu_clock.h"
 #include "cycles/stage.h"
 #include "silvasim/base/error.h"
 #include "silvasim/base/machine.h"
@@ -31,15 +31,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace silvavis;
-
-double cpu_seconds() {
-  struct rusage usage {};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_usec) / 1e6;
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
+using silva_bench::cpu_seconds;
 
 image::Image halved(const image::Image& from) {
   image::Image image(from.width / 2, from.height / 2, 3);
