@@ -62,6 +62,9 @@ struct Stage {
   } seconds;
 };
 
+// The moment that an option like --sun names. Errors: UsageError.
+shade::Moment moment_of(const char* option, const std::string& text);
+
 // Is shown the scene's frame and ground before anyone waits for models, and throws where a camera or a path does not go with
 // them. There are no layers in the scene yet, and it is gone afterwards.
 using Judge = std::function<void(const scene::Scene& bare)>;

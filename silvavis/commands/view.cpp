@@ -56,7 +56,7 @@ class Session {
     settings_.camera = start_ = camera_for(options.picture, stage.scene);
     if (options.picture.stage.sun_direction.empty()) {
       const std::string& sun = options.picture.stage.sun;
-      moment_ = shade::parse_moment(sun.empty() ? default_sun : sun);
+      moment_ = moment_of("--sun", sun.empty() ? default_sun : sun);
     }
     go_to(start_);
     set_light(stage_, options_.picture.stage, settings_.camera.eye.z,

@@ -126,7 +126,7 @@ TEST(Fly, WhatIsWrongIsSaidBeforeModelsAreMade) {
   refused("wrong.xml", {}, "has no attribute \"spee\"", 2);
   refused("path.xml", {}, "1 of the frames 1 to 5 are there already", 1);
   refused("path.xml", {"--frames", "3-9"}, "a part of 1-5", 2);
-  refused("path.xml", {"--sun-to", "yesterday"}, "yesterday", 1);
+  refused("path.xml", {"--sun-to", "yesterday"}, "--sun-to \"yesterday\"", 2);
   refused("path.xml", {"--size", "10"}, "--size", 2);
   refused("none.xml", {}, "none.xml", 1);
 }
