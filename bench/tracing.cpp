@@ -14,12 +14,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "cpu_clock.h"
 #include "silvasim/base/error.h"
 #include "silvasim/base/machine.h"
 #include "silvasim/base/parallel.h"
@@ -117,10 +117,10 @@ Figures measure(silvasim::ecosystem::Ecosystem ecosystem, const std::string& way
     std::vector<double> times;
     for (int run = 0; run < setup.runs; ++run) {
       seconds_since(mark);
-      const std::clock_t begin = std::clock();
+      const double begin = silva_bench::cpu_seconds();
       figures.check[view] = trace(scene, *tracer, view, options.levels);
       times.push_back(seconds_since(mark));
-      const double cpu_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+      const double cpu_s = silva_bench::cpu_seconds() - begin;
       figures.cpu_s[view] = run == 0 ? cpu_s : std::min(figures.cpu_s[view], cpu_s);
     }
     std::sort(times.begin(), times.end());

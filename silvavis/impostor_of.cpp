@@ -46,8 +46,6 @@ Impostor empty_impostor(const scene::PlantModel& model) {
   return impostor;
 }
 
-float weight_of(std::uint16_t stored) { return static_cast<float>(stored) * (1.0f / 65535); }
-
 void keep(const scene::PlantModel& model, const accel::ModelRay& ray, Impostor::Point& point) {
   accel::ModelPoint met;
   accel::trace_model(model, std::span(&ray, 1), std::span(&met, 1));
@@ -101,7 +99,7 @@ void fill(const scene::PlantModel& model, int elevation, int side, Impostor& imp
         // A point at a hole's rim may be rounded into the hole: then the next ray's counts.
         for (std::uint32_t next = 0; next < count; ++next) {
           keep(model, rays[order[(k + next) % count]], point);
-          if (!scene::is_hole(model, point.slot, weight_of(point.u), weight_of(point.v))) break;
+          if (!scene::is_hole(model, point.slot, point.weight_1(), point.weight_2())) break;
         }
       }
     }

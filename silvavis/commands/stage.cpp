@@ -42,7 +42,7 @@ std::map<std::string, std::string> overrides(const std::vector<std::string>& giv
 
 shade::SunPosition sun_for(const StageOptions& options, const Stage& stage) {
   if (!options.sun_direction.empty()) return {options.sun_direction[0], options.sun_direction[1]};
-  const shade::Moment moment = moment_of("--sun", options.sun.empty() ? default_sun : options.sun);
+  const shade::Moment moment = moment_of("--sun", options.sun);
   return shade::sun_position(moment, stage.longitude_deg, stage.latitude_deg);
 }
 
@@ -69,7 +69,7 @@ double mean_height(const scene::Ground& ground) {
 
 shade::Moment moment_of(const char* option, const std::string& text) {
   try {
-    return shade::parse_moment(text);
+    return shade::parse_moment(text.empty() ? default_sun : text);
   } catch (const silvasim::base::Error& error) {
     wrong_option(fmt::format("{} {}", option, error.what()));
   }
@@ -81,7 +81,7 @@ std::unique_ptr<Stage> set_stage(const StageOptions& options, const silvasim::ba
   // What is wrong with the options is said before anyone waits for models.
   FloraOptions flora_options;
   flora_options.overrides = overrides(options.model);
-  if (options.sun_direction.empty() && !options.sun.empty()) moment_of("--sun", options.sun);
+  if (options.sun_direction.empty()) moment_of("--sun", options.sun);
   auto mark = std::chrono::steady_clock::now();
   silvasim::ecosystem::Ecosystem ecosystem = silvasim::ecosystem::read(options.ecosystem, progress);
   stage->seconds.read = seconds_since(mark);

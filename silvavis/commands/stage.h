@@ -62,7 +62,7 @@ struct Stage {
   } seconds;
 };
 
-// The moment that an option like --sun names. Errors: UsageError.
+// The moment that an option like --sun names; empty: default_sun. Errors: UsageError.
 shade::Moment moment_of(const char* option, const std::string& text);
 
 // Is shown the scene's frame and ground before anyone waits for models, and throws where a camera or a path does not go with

@@ -51,7 +51,7 @@ SunWay::SunWay(const StageOptions& options, const std::string& sun_to, const Sta
   if (!moves_) return;
   if (!options.sun_direction.empty())
     silvasim::terminal::wrong_option("--sun-to goes with --sun, not with --sun-direction");
-  from_s_ = seconds_of(moment_of("--sun", options.sun.empty() ? default_sun : options.sun), longitude_deg_);
+  from_s_ = seconds_of(moment_of("--sun", options.sun), longitude_deg_);
   to_s_ = seconds_of(moment_of("--sun-to", sun_to), longitude_deg_);
 }
 

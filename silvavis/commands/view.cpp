@@ -54,10 +54,7 @@ class Session {
         progressive_(stage.scene, *stage.tracer, stage.land) {
     settings_.aovs = false;
     settings_.camera = start_ = camera_for(options.picture, stage.scene);
-    if (options.picture.stage.sun_direction.empty()) {
-      const std::string& sun = options.picture.stage.sun;
-      moment_ = moment_of("--sun", sun.empty() ? default_sun : sun);
-    }
+    if (options.picture.stage.sun_direction.empty()) moment_ = moment_of("--sun", options.picture.stage.sun);
     go_to(start_);
     set_light(stage_, options_.picture.stage, settings_.camera.eye.z,
               haze_for(options_.picture, stage_, settings_.camera.eye));

@@ -25,7 +25,7 @@ const std::array<V3, Impostor::lamps>& lamp_directions() {
 
 // The bits of `at_once` lamps from `first` on, in their places in the word that holds them.
 std::uint64_t traced(const scene::PlantModel& model, const Impostor::Point& point, std::uint32_t first) {
-  const float u = static_cast<float>(point.u) * (1.0f / 65535), v = static_cast<float>(point.v) * (1.0f / 65535);
+  const float u = point.weight_1(), v = point.weight_2();
   const V3 a = model.position_of(point.slot, 0), b = model.position_of(point.slot, 1),
            c = model.position_of(point.slot, 2);
   const V3 at = a * (1 - u - v) + b * u + c * v, plane = (b - a).cross(c - a).normalized();

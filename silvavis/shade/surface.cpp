@@ -80,8 +80,8 @@ SurfacePoint surface_at(const scene::Scene& scene, const Land& land, const accel
     const Impostor::Point& met = full.impostor->points[hit.slot];
     point.told = &full;
     slot = met.slot;
-    u = static_cast<float>(met.u) * (1.0f / 65535);
-    v = static_cast<float>(met.v) * (1.0f / 65535);
+    u = met.weight_1();
+    v = met.weight_2();
   }
   const scene::PlantModel& model = hit.level == 0 || point.told ? full : *full.coarser[hit.level - 1u];
   if (!point.told) tint = model.tint;
