@@ -9,13 +9,13 @@
 #include <optional>
 #include <utility>
 
+#include "assets/fit.h"
+#include "assets/grown/grow.h"
+#include "assets/load.h"
 #include "silvasim/base/error.h"
 #include "silvasim/base/machine.h"
 #include "silvasim/base/parallel.h"
 #include "silvavis/accel/pack.h"
-#include "silvavis/assets/fit.h"
-#include "silvavis/assets/grown/grow.h"
-#include "silvavis/assets/load.h"
 #include "silvavis/impostor_of.h"
 #include "silvavis/level_light.h"
 #include "silvavis/levels/thin.h"

@@ -8,7 +8,7 @@
 
 #include <memory>
 
-#include "silvavis/assets/model.h"
+#include "assets/model.h"
 #include "silvavis/scene/plant_model.h"
 
 namespace silvavis::accel {

@@ -1,20 +1,17 @@
-// Points, directions and colours of the renderer: Imath's vectors under short names.
+// Points, directions and colours of the renderer: those of the models.
 //
-// Units: metres. Frame: x to the east, y to the north, z up. World space is the scene's frame moved so that the scene's
-// `origin` lies at (0, 0, 0): floats keep 2 mm at 20 km. Colours are linear, with the primaries of sRGB.
+// World space is the scene's frame moved so that the scene's `origin` lies at (0, 0, 0): floats keep 2 mm at 20 km.
 #pragma once
 
-#include <Imath/ImathColor.h>
-#include <Imath/ImathVec.h>
+#include "assets/vector.h"
 
 namespace silvavis {
 
-using V2 = Imath::V2f;
-using V3 = Imath::V3f;
-using V3d = Imath::V3d;
-using Rgb = Imath::C3f;
+using assets::Rgb;
+using assets::V2;
+using assets::V3;
+using assets::V3d;
 
-// The share that the eye sees as brightness (ITU-R BT.709).
-inline float luminance(const Rgb& colour) { return 0.2126f * colour.x + 0.7152f * colour.y + 0.0722f * colour.z; }
+using assets::luminance;
 
 }  // namespace silvavis

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "assets/srgb.h"
 #include "silvasim/base/error.h"
 #include "silvasim/base/file.h"
 #include "silvasim/config/value.h"
@@ -16,7 +17,6 @@
 #include "silvasim/fields/raster_field.h"
 #include "silvasim/fields/vector_field.h"
 #include "silvasim/terminal/terminal.h"
-#include "silvavis/assets/srgb.h"
 
 namespace silvavis::commands {
 

@@ -3,11 +3,11 @@
 
 #include <filesystem>
 
-#include "silvavis/pictures/picture_file.h"
+#include "assets/pictures/picture_file.h"
 
 namespace silvavis::image {
 
-using pictures::Format;
+using assets::pictures::Format;
 
 // .exr, .png, .jpg, .jpeg, .tif, .tiff, in any case. Errors: base::Error that names the file and lists these.
 Format format_of(const std::filesystem::path& path);

@@ -17,7 +17,7 @@ namespace silvavis::image {
 
 namespace fs = std::filesystem;
 namespace base = silvasim::base;
-using pictures::Sample;
+using assets::pictures::Sample;
 
 namespace {
 
@@ -36,11 +36,13 @@ class Input {
  public:
   explicit Input(const fs::path& path)
       : path_(path), format_(format_of(path)), bytes_(base::read_file(path, most_file_bytes)) {
-    guarded([&] { file_ = pictures::open_bytes(format_, path.filename().string(), std::as_bytes(std::span(bytes_))); });
+    guarded([&] {
+      file_ = assets::pictures::open_bytes(format_, path.filename().string(), std::as_bytes(std::span(bytes_)));
+    });
     check();
   }
 
-  const pictures::Shape& shape() const { return file_->shape(); }
+  const assets::pictures::Shape& shape() const { return file_->shape(); }
   Format format() const { return format_; }
   std::size_t pixels() const {
     return static_cast<std::size_t>(shape().width) * static_cast<std::size_t>(shape().height);
@@ -61,7 +63,7 @@ class Input {
   }
 
   void check() const {
-    const pictures::Shape& s = shape();
+    const assets::pictures::Shape& s = shape();
     if (s.width < 1 || s.height < 1 || s.width > most_side_px || s.height > most_side_px || s.depth > 1 ||
         static_cast<long long>(s.width) * s.height > most_pixels) {
       fail(path_, fmt::format("it claims {} x {} x {} pixels; a side can have 1 to {}, and all together {} million",
@@ -81,12 +83,12 @@ class Input {
   fs::path path_;
   Format format_;
   std::string bytes_;
-  std::unique_ptr<pictures::PictureFile> file_;
+  std::unique_ptr<assets::pictures::PictureFile> file_;
 };
 
-int channel_named(const pictures::Shape& shape, const std::string& name) {
+int channel_named(const assets::pictures::Shape& shape, const std::string& name) {
   const auto at = std::find_if(shape.channels.begin(), shape.channels.end(),
-                               [&](const pictures::Shape::Channel& channel) { return channel.name == name; });
+                               [&](const assets::pictures::Shape::Channel& channel) { return channel.name == name; });
   return at == shape.channels.end() ? -1 : static_cast<int>(at - shape.channels.begin());
 }
 
@@ -127,7 +129,7 @@ void linearize(Image& image, int colours) {
 
 // Grey (and alpha) or colours (and alpha), in the order in which the file has them.
 Image first_channels(Input& input) {
-  const pictures::Shape& shape = input.shape();
+  const assets::pictures::Shape& shape = input.shape();
   const int taken = std::min(static_cast<int>(shape.channels.size()), 4);
   const bool grey = taken < 3, alpha = taken == 2 || taken == 4;
   std::vector<float> values(input.pixels() * static_cast<std::size_t>(taken));

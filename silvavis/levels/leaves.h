@@ -5,7 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "silvavis/assets/model.h"
+#include "assets/model.h"
+#include "silvavis/base/vector.h"
 
 namespace silvavis::levels {
 

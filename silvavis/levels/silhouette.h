@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "silvavis/assets/model.h"
+#include "assets/model.h"
+#include "silvavis/base/vector.h"
 
 namespace silvavis::levels {
 

@@ -11,7 +11,8 @@
 
 #include <cstdint>
 
-#include "silvavis/assets/model.h"
+#include "assets/model.h"
+#include "silvavis/base/vector.h"
 
 namespace silvavis::levels {
 

@@ -3,7 +3,8 @@
 
 #include <cstddef>
 
-#include "silvavis/assets/model.h"
+#include "assets/model.h"
+#include "silvavis/base/vector.h"
 
 namespace silvavis::levels {
 

@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "assets/model.h"
 #include "silvasim/base/huge_vector.h"
-#include "silvavis/assets/model.h"
 #include "silvavis/base/vector.h"
 #include "silvavis/scene/impostor.h"
 

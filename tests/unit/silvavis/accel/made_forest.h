@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "silvavis/assets/model.h"
+#include "assets/model.h"
 #include "silvavis/scene/scene.h"
 
 namespace silvavis::testing {

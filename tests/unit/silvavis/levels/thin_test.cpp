@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "silvavis/assets/grown/grow.h"
+#include "assets/grown/grow.h"
 #include "silvavis/levels/silhouette.h"
 
 namespace silvavis::levels {

@@ -6,10 +6,10 @@
 #include <thread>
 #include <vector>
 
+#include "assets/grown/grow.h"
 #include "silvasim/base/random.h"
 #include "silvavis/accel/nested.h"
 #include "silvavis/accel/pack.h"
-#include "silvavis/assets/grown/grow.h"
 #include "silvavis/impostor_of.h"
 #include "silvavis/shade/own_shadow.h"
 
