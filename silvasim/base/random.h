@@ -20,6 +20,12 @@ enum class Purpose : std::uint32_t {
   plant_form = 7,
   picture = 8,
   impostor = 9,
+  detail_surface = 20,
+  detail_anchor = 21,
+  detail_form = 22,
+  density_warp = 23,
+  cover = 24,
+  candidate = 30,
 };
 
 // A stream of numbers named by (seed, purpose, a, b, c). Two streams with different names are independent.

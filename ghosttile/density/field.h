@@ -1,0 +1,96 @@
+// Density fields: functions of a place that say how dense details of a type are there, worked out from skeletal primitives and
+// operators (the BlobTree), over the ground and over what stands on it.
+//
+// A Field is a tree in scene coordinates and doubles. It is cut down to what matters in a box, again and again while the box is
+// halved, and what is left is compiled for blocks of points in floats relative to a corner near by: so values depend on the place
+// and the corner alone, never on how large a land is filled, and a point costs nothing for primitives that are far.
+//
+// Units: metres, scene coordinates (x east, y north, z up). Values: 0 outside, above 0 inside, usually up to 1.
+// No data: where a sampled plane has none, its value is 0.
+// Threads: immutable; everything const may be called from any number of threads, evaluate() with a Scratch each.
+// Source: Guérin et al. 2016, section 5; Wyvill, Guy and Galin 1999 (BlobTree).
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "assets/vector.h"
+
+namespace ghosttile::density {
+
+using assets::V3;
+using assets::V3d;
+
+// A closed, axis-parallel box; empty where least > most.
+struct Box3 {
+  V3d least{0, 0, 0}, most{0, 0, 0};
+};
+
+// All values that a function takes somewhere, and maybe more.
+struct Range {
+  float least = 0, most = 0;
+};
+
+// Most points in one block.
+inline constexpr std::size_t block_size = 256;
+
+// Columns of at most block_size points, relative to the compiled field's corner.
+struct Points {
+  const float* x = nullptr;
+  const float* y = nullptr;
+  const float* z = nullptr;
+  std::size_t count = 0;
+};
+
+// A function of the plane, sampled: the ground's height, the cover of crowns, a response to a data field.
+// One call a block, never a point.
+class Plane {
+ public:
+  virtual ~Plane() = default;
+  // value[i] at (origin.x + x[i], origin.y + y[i]); a pure function of the place.
+  virtual void sample(const V3d& origin, const float* x, const float* y, std::size_t count, float* value) const = 0;
+  // Everything that sample() may return within the rectangle [least, most].
+  virtual Range bounds(double west, double south, double east, double north) const = 0;
+};
+
+struct Node;  // node.h: the tree's nodes as plain values
+
+struct Scratch {
+  std::vector<float> columns;
+};
+
+// A field made ready for points near a corner.
+class Compiled {
+ public:
+  Range range;  // within the box that it was cut down to
+  bool empty() const { return !(range.most > 0); }
+  bool constant() const { return range.least == range.most; }
+
+  // value[i] at points[i], which lie in the box that the field was cut down to.
+  void evaluate(const Points& points, Scratch& scratch, float* value) const;
+
+ private:
+  friend class Field;
+  struct Step;
+  std::shared_ptr<const std::vector<Step>> steps_;
+  V3d corner_{0, 0, 0};
+};
+
+class Field {
+ public:
+  Field() = default;  // 0 everywhere
+  explicit Field(Node tree);
+
+  // Outside of it the field is 0 for certain. May be unbounded (+-infinity).
+  Box3 bounds() const;
+  Range range(const Box3& box) const;
+  // What of it matters within the box: the same values there.
+  Field within(const Box3& box) const;
+  Compiled compiled(const V3d& corner, const Box3& box) const;
+
+ private:
+  std::shared_ptr<const Node> tree_;
+};
+
+}  // namespace ghosttile::density
