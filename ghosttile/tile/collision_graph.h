@@ -12,7 +12,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <string>
 #include <vector>
 
 namespace ghosttile::tile {
@@ -26,7 +26,7 @@ struct CollisionGraph {
   // Words of candidate i are [first_word[i], first_word[i + 1]), in increasing place. A word's place is
   // offset index * words_a_tile() + j / 64.
   std::vector<std::uint32_t> first_word;
-  std::vector<std::uint32_t> places;  // by word
+  std::vector<std::uint16_t> places;  // by word
   std::vector<std::uint64_t> bits;    // by word
 
   std::uint32_t words_a_tile() const { return (candidates + 63) / 64; }
@@ -48,6 +48,8 @@ struct CollisionGraph {
     return sum;
   }
   bool collides(std::uint32_t i, std::uint32_t j, const Offset& v) const;
+  // Whether it keeps the promises above, for graphs from files; what is wrong in words, or empty.
+  std::string problem() const;
   std::size_t bytes() const {
     return first_word.size() * sizeof(first_word[0]) + places.size() * sizeof(places[0]) +
            bits.size() * sizeof(bits[0]);
