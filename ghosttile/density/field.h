@@ -56,41 +56,45 @@ class Plane {
 
 struct Node;  // node.h: the tree's nodes as plain values
 
+// Room that evaluate() works in. Grows once, then is used again.
 struct Scratch {
   std::vector<float> columns;
 };
 
-// A field made ready for points near a corner.
+struct Program;  // program.h: what is left of a field as a list of steps
+struct Cut;      // tree.h: what is left of a tree, on the tree's worked-out primitives
+
+// A field made ready for points near a corner. Holds on to the planes that it samples.
 class Compiled {
  public:
   Range range;  // within the box that it was cut down to
   bool empty() const { return !(range.most > 0); }
   bool constant() const { return range.least == range.most; }
 
-  // value[i] at points[i], which lie in the box that the field was cut down to.
+  // value[i] at points[i], which lie in the box that the field was cut down to. Never NaN, never below 0.
   void evaluate(const Points& points, Scratch& scratch, float* value) const;
 
  private:
   friend class Field;
-  struct Step;
-  std::shared_ptr<const std::vector<Step>> steps_;
-  V3d corner_{0, 0, 0};
+  std::shared_ptr<const Program> program_;  // none: constant
 };
 
+// A corner is near by when it is no farther from the box than 32 of the box's diagonals.
 class Field {
  public:
   Field() = default;  // 0 everywhere
+  // base::Error with problem_with(tree) where there is one.
   explicit Field(Node tree);
 
   // Outside of it the field is 0 for certain. May be unbounded (+-infinity).
   Box3 bounds() const;
   Range range(const Box3& box) const;
-  // What of it matters within the box: the same values there.
+  // What of it matters within the box: the same values there, to the bit, when compiled with the same corner near by.
   Field within(const Box3& box) const;
   Compiled compiled(const V3d& corner, const Box3& box) const;
 
  private:
-  std::shared_ptr<const Node> tree_;
+  std::shared_ptr<const Cut> cut_;  // none: 0 everywhere
 };
 
 }  // namespace ghosttile::density

@@ -47,4 +47,10 @@ struct Node {
   std::vector<Node> children;
 };
 
+// What is wrong with a tree, in words that name the kind and say what would be right; empty where nothing is.
+std::string problem_with(const Node& tree);
+
+// The name of a kind, as above.
+const char* name_of(Kind kind);
+
 }  // namespace ghosttile::density
