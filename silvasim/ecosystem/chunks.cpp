@@ -129,7 +129,7 @@ ChunkFile::ChunkFile(const Source& source) : source_(source) {
   Bytes buffer;
   const std::uint64_t size = source.size();
   if (size < magic.size() || !equal(source.fetch(0, magic.size(), buffer), magic)) {
-    fail("this is no Silva ecosystem file: it does not begin with the bytes 89 53 49 4C 56 41 0D 0A");
+    fail("this is no file of Silva: it does not begin with the bytes 89 53 49 4C 56 41 0D 0A");
   }
   if (size < header_size + footer_size) {
     fail("it has " + std::to_string(size) + " bytes, the least possible are " +

@@ -118,8 +118,8 @@ TEST(Damage, NamesFileChunkAndByte) {
 TEST(Damage, OtherFilesAreToldApart) {
   const std::string text =
       "PK\3\4 a zip archive, a picture, anything that is longer than a header and a footer together";
-  EXPECT_THAT(refusal(std::as_bytes(std::span(text))), HasSubstr("no Silva ecosystem file"));
-  EXPECT_THAT(refusal({}), HasSubstr("no Silva ecosystem file"));
+  EXPECT_THAT(refusal(std::as_bytes(std::span(text))), HasSubstr("no file of Silva"));
+  EXPECT_THAT(refusal({}), HasSubstr("no file of Silva"));
   Anatomy anatomy = small_anatomy();
   anatomy.endian_tag = 0x04030201;
   expect_refused(anatomy, "endian tag");

@@ -77,11 +77,11 @@ TEST_F(WriteTest, WhatIsNoFileIsNotRead) {
   EXPECT_THAT([&] { read(folder_ / "none"); }, ThrowsMessage<base::Error>(HasSubstr("No such file")));
   EXPECT_THAT([&] { read("/dev/zero"); }, ThrowsMessage<base::Error>(HasSubstr("no regular file")));
   std::ofstream(folder_ / "empty");
-  EXPECT_THAT([&] { read(folder_ / "empty"); }, ThrowsMessage<base::Error>(HasSubstr("no Silva ecosystem file")));
+  EXPECT_THAT([&] { read(folder_ / "empty"); }, ThrowsMessage<base::Error>(HasSubstr("no file of Silva")));
   // A terabyte that takes no room on the disk.
   std::ofstream(folder_ / "sparse");
   fs::resize_file(folder_ / "sparse", std::uintmax_t{1} << 40);
-  EXPECT_THAT([&] { read(folder_ / "sparse"); }, ThrowsMessage<base::Error>(HasSubstr("no Silva ecosystem file")));
+  EXPECT_THAT([&] { read(folder_ / "sparse"); }, ThrowsMessage<base::Error>(HasSubstr("no file of Silva")));
 }
 
 // A sparse terabyte with a healthy header: only its two ends are looked at.

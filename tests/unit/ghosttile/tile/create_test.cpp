@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "ghosttile/tile/sphere_columns.h"
-#include "made_details.h"
+#include "tests/unit/ghosttile/tile/made_details.h"
 #include "silvasim/base/error.h"
 #include "silvasim/base/parallel.h"
 
