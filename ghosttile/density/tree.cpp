@@ -83,9 +83,8 @@ class Worker {
                    norm = std::sqrt(c * c + s * s);
       leaf.cos_turn = c / norm;
       leaf.sin_turn = s / norm;
-    } else {
-      leaf.size_m = node.size.x;
     }
+    if (node.kind == Kind::disc || node.kind == Kind::cylinder || node.kind == Kind::sphere) leaf.size_m = node.size.x;
     leaf.radius_m = node.radius_m;
     leaf.core = node.core;
     leaf.from_m = node.from_m;
