@@ -27,8 +27,11 @@ struct Direction {
   float most_cosine = 1;
 };
 
+// How far about a point the density is asked for its gradient: cut the field down to a box that is so much larger.
+inline constexpr float gradient_step_m = 0.01f;
+
 // direction[i] of unit length at points[i], or 0 where there is none (on the axis, where the gradient vanishes).
-// `density`: the compiled density, for gradient.
+// `density`: the compiled density, for gradient; six evaluations.
 void directions_at(const Direction& direction, const V3d& corner, const Points& points, const Compiled& density,
                    Scratch& scratch, V3* result);
 
