@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "ghosttile/tile/sphere_columns.h"
-#include "tests/unit/ghosttile/tile/made_details.h"
 #include "silvasim/base/error.h"
 #include "silvasim/base/parallel.h"
+#include "tests/unit/ghosttile/tile/made_details.h"
 
 namespace ghosttile::tile {
 namespace {
