@@ -34,10 +34,9 @@ Bytes file_bytes(std::vector<NamedChunk> named) {
   return bytes;
 }
 
-void write_chunks(std::vector<NamedChunk> chunks, const std::filesystem::path& path,
-                  std::span<const std::filesystem::path> inputs) {
+void write_bytes(const Bytes& bytes, const std::filesystem::path& path, std::span<const std::filesystem::path> inputs) {
   silvasim::base::NewFile file(path, inputs);
-  file.write(file_bytes(std::move(chunks)));
+  file.write(bytes);
   file.commit();
 }
 

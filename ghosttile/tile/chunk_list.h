@@ -26,8 +26,7 @@ struct NamedChunk {
 };
 
 Bytes file_bytes(std::vector<NamedChunk> chunks);
-void write_chunks(std::vector<NamedChunk> chunks, const std::filesystem::path& path,
-                  std::span<const std::filesystem::path> inputs);
+void write_bytes(const Bytes& bytes, const std::filesystem::path& path, std::span<const std::filesystem::path> inputs);
 
 // `kind`: what the file should be, for the message where its first chunk is another than `first`.
 std::vector<NamedChunk> chunks_from(std::span<const std::byte> bytes, const std::string& name, const ChunkType& first,

@@ -153,7 +153,7 @@ GhostTile tile_from(const std::vector<NamedChunk>& chunks, const std::string& na
 }
 
 void write(const GhostTile& tile, const std::filesystem::path& path, std::span<const std::filesystem::path> inputs) {
-  write_chunks(chunks_of(tile), path, inputs);
+  write_bytes(file_bytes(chunks_of(tile)), path, inputs);
 }
 
 GhostTile read(const std::filesystem::path& path) {
