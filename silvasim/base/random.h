@@ -26,6 +26,7 @@ enum class Purpose : std::uint32_t {
   density_warp = 23,
   cover = 24,
   candidate = 30,
+  scatter = 31,
 };
 
 // A stream of numbers named by (seed, purpose, a, b, c). Two streams with different names are independent.
