@@ -65,7 +65,7 @@ double falloff(const Leaf& leaf, double distance_m) {
 
 Range range_between(const Leaf& leaf, double nearest_m, double farthest_m) {
   if (nearest_m > leaf.radius_m) return {0, 0};
-  if (farthest_m <= leaf.radius_m * leaf.core) return {1, 1};
+  if (farthest_m <= leaf.radius_m * (leaf.sharp() ? 1 : leaf.core)) return {1, 1};
   if (leaf.sharp()) return {0, 1};
   const double most = falloff(leaf, above_zero(nearest_m)), least = falloff(leaf, above_zero(farthest_m));
   return {static_cast<float>(least * (1 - 1e-6)), static_cast<float>(std::min(1.0, most * (1 + 1e-6)))};

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "ghosttile/density/pyramid.h"
@@ -26,6 +27,7 @@ struct Grid {
   double west = 0, north = 0, cell_width_m = 1, cell_height_m = 1;
   double last_column = 0, last_row = 0;
   int last_cell_column = 0, last_cell_row = 0;
+  int columns = 0;
 };
 
 inline double clamped(double x, double most) {
@@ -67,11 +69,33 @@ SILVA_VECTOR_CLONES void grid_places(const Grid& grid, double west, double south
   }
 }
 
-SILVA_VECTOR_CLONES void values_in_cell(const Cell& cell, const double* u, const double* v, std::size_t count,
+// Returns whether all lay in the cell; else the values are of no use.
+SILVA_VECTOR_CLONES bool values_in_cell(const Cell& cell, const double* u, const double* v, std::size_t count,
                                         float* __restrict value) {
   const Cell here = cell;
   const double column = here.column, row = here.row;
-  for (std::size_t i = 0; i < count; ++i) value[i] = static_cast<float>(between(here, u[i] - column, v[i] - row));
+  std::int64_t outside = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double s = u[i] - column, t = v[i] - row;
+    value[i] = static_cast<float>(between(here, s, t));
+    outside |= static_cast<std::int64_t>(s < 0) | static_cast<std::int64_t>(s > 1) | static_cast<std::int64_t>(t < 0) |
+               static_cast<std::int64_t>(t > 1);
+  }
+  return outside == 0;
+}
+
+// Of a raster without missing values.
+SILVA_VECTOR_CLONES void values_in_raster(const Grid& grid, const float* __restrict heights, const double* u,
+                                          const double* v, std::size_t count, float* __restrict value) {
+  const int last_column = grid.last_cell_column, last_row = grid.last_cell_row, columns = grid.columns;
+  const int east = columns > 1 ? 1 : 0, south = grid.last_row > 0 ? columns : 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const int u_whole = static_cast<int>(u[i]), v_whole = static_cast<int>(v[i]);
+    const int column = u_whole < last_column ? u_whole : last_column, row = v_whole < last_row ? v_whole : last_row;
+    const float* at = heights + static_cast<std::ptrdiff_t>(row) * columns + column;
+    value[i] =
+        static_cast<float>(between({0, 0, at[0], at[east], at[south], at[south + east]}, u[i] - column, v[i] - row));
+  }
 }
 
 class RasterPlane final : public Plane {
@@ -88,11 +112,9 @@ class RasterPlane final : public Plane {
     std::array<double, block_size> u, v;
     grid_places(grid_, origin.x, origin.y, x, y, count, u.data(), v.data());
     // Mostly a whole block lies within one cell.
-    const auto [u_least, u_most] = std::minmax_element(u.begin(), u.begin() + static_cast<std::ptrdiff_t>(count));
-    const auto [v_least, v_most] = std::minmax_element(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(count));
-    const Cell first = cell_at(*u_least, *v_least);
-    if (first.whole() && cell_column(*u_most) == first.column && cell_row(*v_most) == first.row)
-      return values_in_cell(first, u.data(), v.data(), count, value);
+    const Cell first = cell_at(u[0], v[0]);
+    if (first.whole() && values_in_cell(first, u.data(), v.data(), count, value)) return;
+    if (!missing_) return values_in_raster(grid_, raster_->heights_m.data(), u.data(), v.data(), count, value);
     for (std::size_t i = 0; i < count; ++i) value[i] = value_at(u[i], v[i]);
   }
 
@@ -120,7 +142,8 @@ class RasterPlane final : public Plane {
              raster_->columns - 1.0,
              raster_->rows - 1.0,
              std::max(raster_->columns - 2, 0),
-             std::max(raster_->rows - 2, 0)};
+             std::max(raster_->rows - 2, 0),
+             raster_->columns};
     const auto& values = raster_->heights_m;
     missing_ = std::any_of(values.begin(), values.end(), [](float value) { return std::isnan(value); });
     pyramid_ = Pyramid(values, raster_->columns, raster_->rows);

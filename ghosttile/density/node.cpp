@@ -73,8 +73,8 @@ std::string problem_with_kind(const Node& node) {
     case Kind::warp:
       if (node.children.size() != 1)
         return "has " + std::to_string(node.children.size()) + " children; give one field that it changes";
-      if (node.kind == Kind::warp && !(node.radius_m > 0))
-        return "has a radius_m of 0; give the noise's wavelength in metres";
+      if (node.kind == Kind::warp && !(node.radius_m >= 0.001))
+        return "has a radius_m below a millimetre; give the noise's wavelength in metres";
       break;
     default:
       if (node.kind >= Kind::blend && node.children.empty()) return "has no children; give one field or more";

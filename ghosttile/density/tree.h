@@ -32,8 +32,8 @@ struct Leaf {
   double reach_m = 0;  // the lengths of it that slack is a share of
   Box3 bounds;         // outside it is 0
 
-  // 1 or 0, nothing between.
-  bool sharp() const { return !(radius_m * (1 - core) > 0); }
+  // 1 or 0, nothing between: the falloff is thinner than a thousandth of a millimetre.
+  bool sharp() const { return !(radius_m * (1 - core) > 1e-6); }
 };
 
 struct Warp {

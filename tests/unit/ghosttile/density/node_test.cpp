@@ -69,7 +69,7 @@ TEST(Node, ProblemsAreToldInWords) {
   add("a layer has from_m above to_m", of(Kind::layer, {}), [](Node& n) { n.from_m = 1; });
   add("a blend has no children", of(Kind::blend, {}), [](Node&) {});
   add("a warp has 2 children", of(Kind::warp, {point(), point()}), [](Node&) {});
-  add("a warp has a radius_m of 0", of(Kind::warp, {point()}), [](Node&) {});
+  add("a warp has a radius_m below a millimetre", of(Kind::warp, {point()}), [](Node&) {});
   add("a scale has 0 children", of(Kind::scale, {}), [](Node&) {});
   add("a constant has a value outside of 0 to 1e6", of(Kind::constant, {}), [](Node& n) { n.value = -0.1; });
   add("a sphere has 0 points", of(Kind::unite, {point(), of(Kind::sphere, {})}), [](Node&) {});
