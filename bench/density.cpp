@@ -95,7 +95,7 @@ struct Work {
       return;
     }
     const Field inner = field.within(box);
-    if (!(inner.range(box).most > 0)) {
+    if (inner.empty()) {
       const auto count = static_cast<std::uint64_t>((most[0] - least[0]) * (most[1] - least[1]) * (most[2] - least[2]));
       tiles += count;
       empty_tiles += count;

@@ -86,6 +86,8 @@ class Field {
   // base::Error with problem_with(tree) where there is one.
   explicit Field(Node tree);
 
+  // 0 everywhere for certain; after within(), in the box.
+  bool empty() const { return !cut_; }
   // Outside of it the field is 0 for certain. May be unbounded (+-infinity).
   Box3 bounds() const;
   Range range(const Box3& box) const;

@@ -57,6 +57,49 @@ TEST(Cut, HalvingKeepsEveryBitAndRangesHold) {
   EXPECT_GT(folded, 1000u);
 }
 
+// A box that touches a rim from outside or from inside, as near as doubles can: what floats see there is kept.
+TEST(Cut, KeepsEveryBitWhereABoxTouchesARim) {
+  std::size_t alive = 0, dead = 0;
+  for (unsigned seed = 0; seed < 30000; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const V3d middle(512345.7, 5412345.3, 812.1);
+    Maker maker(seed, middle);
+    const Kind kinds[] = {Kind::point, Kind::sphere, Kind::box, Kind::cylinder, Kind::segment, Kind::disc};
+    Node node = maker.leaf(kinds[seed % 6]);
+    if (maker.pick(2)) node.core = 1;  // sharp: 1 on one side, 0 on the other
+    node.turn_deg = 0;
+    node.axis = V3d(0, 0, 1);
+    if (node.points.size() > 1) node.points[1] = node.points[0] + V3d(0, 0, maker.between(0.2, 2));
+    const double solid_m = node.kind == Kind::point || node.kind == Kind::segment ? 0 : node.size.x;
+    const bool inside = maker.pick(2);
+    // The box's face is where the value gets 0, or where it stops to be 1.
+    const double rim_x = node.points[0].x + solid_m + node.radius_m * (inside ? node.core : 1);
+    const double side_m = inside ? std::min(0.5, solid_m + node.radius_m * node.core) : 0.5;
+    const double nudge_m = maker.between(-1, 1) * 1e-8;
+    Box3 box;
+    box.least = V3d(rim_x + nudge_m - (inside ? side_m : 0), node.points[0].y - 0.001, node.points[0].z);
+    box.most = V3d(rim_x + nudge_m + (inside ? 0 : side_m), node.points[0].y + 0.001, node.points[0].z + 0.001);
+    const V3d corner = box.least + V3d(maker.between(-3, 3), maker.between(-3, 3), maker.between(-1, 1));
+    auto places = samples(box, corner, 32, maker.random);
+    for (std::size_t i = 8; i < places.size(); ++i)
+      places[i].x = static_cast<float>((inside ? box.most.x : box.least.x) - corner.x);
+    const Box3 around{middle - V3d(7, 7, 4), middle + V3d(7, 7, 4)};
+    const Field field(node);
+    const auto want = values_at(field.compiled(corner, around), places);
+    const Compiled after = field.within(box).compiled(corner, box);
+    const auto got = values_at(after, places);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      ASSERT_EQ(std::bit_cast<std::uint32_t>(want[i]), std::bit_cast<std::uint32_t>(got[i]))
+          << want[i] << " " << got[i];
+      ASSERT_GE(got[i], after.range.least);
+      ASSERT_LE(got[i], after.range.most);
+      ++(got[i] > 0 ? alive : dead);
+    }
+  }
+  EXPECT_GT(alive, 100000u);
+  EXPECT_GT(dead, 100000u);
+}
+
 // In small boxes a range is hardly wider than what is there: bounded by how steep the falloff can be.
 TEST(Cut, RangesAreNotSillyWide) {
   const Kind kinds[] = {Kind::point, Kind::segment, Kind::disc, Kind::box, Kind::sphere, Kind::cylinder, Kind::layer};
@@ -93,6 +136,9 @@ TEST(Cut, WhatIsFarVanishesAndWhatIsFullIsConstant) {
   }
   const Field field(haystacks);
   EXPECT_TRUE(field.compiled(V3d(15, 0, 0), {V3d(14.8, 0, 0), V3d(15.3, 0.5, 0.5)}).empty());
+  EXPECT_TRUE(field.within({V3d(14.8, 0, 0), V3d(15.3, 0.5, 0.5)}).empty());
+  EXPECT_FALSE(field.empty());
+  EXPECT_TRUE(Field().empty());
   const Compiled full = field.compiled(V3d(20, 0, 0.5), {V3d(19.8, -0.2, 0.5), V3d(20.3, 0.3, 1)});
   EXPECT_TRUE(full.constant());
   EXPECT_EQ(full.range.least, 1);
