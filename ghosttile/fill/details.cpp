@@ -13,6 +13,14 @@ void append_tile(const Details& from, std::size_t tile, Details& to) {
 
 }  // namespace
 
+Details part_of(const Details& details, const TileBox& box) {
+  Details part;
+  part.first.push_back(0);
+  for (std::size_t t = 0; t < details.tiles.size(); ++t)
+    if (box.holds(details.tiles[t].x, details.tiles[t].y, details.tiles[t].z)) append_tile(details, t, part);
+  return part;
+}
+
 Details joined(const Details& outside, const Details& inside, const TileBox& box) {
   Details all;
   all.first.push_back(0);

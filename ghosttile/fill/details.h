@@ -38,6 +38,9 @@ struct Details {
   friend bool operator==(const Details&, const Details&) = default;
 };
 
+// The tiles within the box.
+Details part_of(const Details& details, const TileBox& box);
+
 // Outside of the box the first's tiles, inside the second's, which has none outside.
 Details joined(const Details& outside, const Details& inside, const TileBox& box);
 

@@ -1,0 +1,18 @@
+#include "ghosttile/fill/edit.h"
+
+namespace ghosttile::fill {
+
+void edit(const Plan& plan, DetailsFile& file, const TileBox& touched, const std::string& strokes_xml,
+          const silvasim::base::Progress& progress) {
+  Details after = refill(plan, file.details, touched, progress);
+  file.edits.push_back({strokes_xml, touched, part_of(file.details, touched)});
+  file.details = std::move(after);
+}
+
+void undo(DetailsFile& file) {
+  const Edit last = std::move(file.edits.back());
+  file.edits.pop_back();
+  file.details = joined(file.details, last.before, last.touched);
+}
+
+}  // namespace ghosttile::fill
