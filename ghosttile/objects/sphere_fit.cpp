@@ -163,8 +163,9 @@ void check(const assets::Model& model, const SphereFitOptions& o) {
   };
   if (o.spheres < 1 || o.spheres > most_spheres)
     fail(fmt::format("{} spheres were asked for; 1 to {} are possible", o.spheres, most_spheres));
-  if (!(o.outside_share >= 0 && o.outside_share <= 1))
-    fail(fmt::format("spheres shall reach outside by {} of their radius; 0 to 1 are possible", o.outside_share));
+  if (!(o.outside_share >= 0 && o.outside_share <= most_outside))
+    fail(fmt::format("spheres shall reach outside by {} of their radius; 0 to {} are possible", o.outside_share,
+                     most_outside));
   if (!(o.thickness_m >= 0) || !std::isfinite(o.thickness_m))
     fail(fmt::format("the half thickness {} m is not a length", o.thickness_m));
 }
@@ -174,15 +175,9 @@ void check(const assets::Model& model, const SphereFitOptions& o) {
 SphereFit fit_spheres(const assets::Model& model, const SphereFitOptions& options) {
   check(model, options);
   Surface s = surface_of(model);
-  // A skin is a closed part so thin that beads within it would leave most of it bare.
-  double area = 0;
-  for (const double a : s.area_m2) area += a;
-  const double even = std::sqrt(area / (5.2 * options.spheres));
   if (options.all_shell) {
     std::fill(s.solid.begin(), s.solid.end(), std::uint8_t{0});
     std::fill(s.buried.begin(), s.buried.end(), std::uint8_t{0});
-  } else {
-    s = surface_of(model, std::min(0.1 * even, 0.02 * s.radius_m));
   }
 
   // Share the spheres between solid parts and shells by area.

@@ -57,15 +57,23 @@ std::uint32_t root(std::vector<std::uint32_t>& parents, std::uint32_t i) {
   return i;
 }
 
+void widen(V3d& least, V3d& most, const V3d& p) {
+  least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
+  most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
+}
+
 struct PartOf {
   bool open = false;
   double volume = 0, area = 0;
-  V3d origin{0, 0, 0};
+  V3d least{0, 0, 0}, most{0, 0, 0}, origin{0, 0, 0};
   bool begun = false;
 };
 
-bool encloses(const PartOf& part, double skin_m) {
-  return !part.open && std::abs(part.volume) > part.area * std::max(skin_m, 1e-5 * std::sqrt(part.area));
+// No thin sheet: area^2 over extent times volume is about 12 for a bar, however thin, and 3 to 4 n for a sheet that is n
+// times as wide as thick.
+bool encloses(const PartOf& part, double sheets) {
+  const double volume = std::abs(part.volume), extent = (part.most - part.least).length();
+  return !part.open && volume > 1e-9 * part.area * extent && part.area * part.area < 4 * sheets * extent * volume;
 }
 
 void find_columns(Surface& s) {
@@ -111,7 +119,7 @@ void find_buried(Surface& s) {
 
 }  // namespace
 
-Surface surface_of(const assets::Model& model, double skin_m) {
+Surface surface_of(const assets::Model& model, double sheets) {
   check(model);
   Surface s;
   const std::vector<std::uint32_t> place = welded(model.positions);
@@ -132,8 +140,7 @@ Surface surface_of(const assets::Model& model, double skin_m) {
     s.least = s.corners.size() == 1 ? a : s.least;
     s.most = s.corners.size() == 1 ? a : s.most;
     for (const V3d& p : {a, b, c}) {
-      s.least = {std::min(s.least.x, p.x), std::min(s.least.y, p.y), std::min(s.least.z, p.z)};
-      s.most = {std::max(s.most.x, p.x), std::max(s.most.y, p.y), std::max(s.most.z, p.z)};
+      widen(s.least, s.most, p);
     }
     s.middle.push_back((a + b + c) / 3.0);
     s.reach_m.push_back(
@@ -171,8 +178,9 @@ Surface surface_of(const assets::Model& model, double skin_m) {
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     PartOf& part = parts[root(parents, triangles[t][0])];
     const auto& [a, b, c] = s.corners[t];
-    if (!part.begun) part.origin = a;
+    if (!part.begun) part.origin = part.least = part.most = a;
     part.begun = true;
+    for (const V3d& p : {a, b, c}) widen(part.least, part.most, p);
     part.volume += (a - part.origin).dot((b - part.origin).cross(c - part.origin)) / 6;
     part.area += s.area_m2[t];
   }
@@ -180,14 +188,14 @@ Surface surface_of(const assets::Model& model, double skin_m) {
   s.buried.assign(triangles.size(), 0);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const PartOf& part = parts[root(parents, triangles[t][0])];
-    s.solid[t] = encloses(part, skin_m);
+    s.solid[t] = encloses(part, sheets);
     if (s.solid[t] && part.volume < 0) {
       std::swap(s.corners[t][1], s.corners[t][2]);
       s.normals[t] = -s.normals[t];
     }
   }
   for (const PartOf& part : parts) {
-    if (part.begun && encloses(part, skin_m)) s.volume_m3 += std::abs(part.volume);
+    if (part.begun && encloses(part, sheets)) s.volume_m3 += std::abs(part.volume);
   }
   find_columns(s);
   find_buried(s);

@@ -1,7 +1,7 @@
 // A model's surface made ready for fitting: which parts of it enclose a volume, how far it is, what lies inside.
 //
 // Shape: columns by triangle. A part (triangles joined by common corners) is solid where every edge is run through once in each
-//   direction and the volume is more than a skin; all else is a shell: leaf cards, blades, surfaces with a hole.
+//   direction and they are no thin sheet; all else is a shell: leaf cards, blades, thin sheets, surfaces with a hole.
 // Units: metres. Promise: normals of solid triangles point outward, whatever the file's order of corners.
 // Errors: base::Error naming the model: no triangle, no area, a number that is not finite, an index out of range, too many.
 // Threads: immutable once made. Cost: making it n log n; inside() about 50 ns; distance() a comparison a triangle.
@@ -38,8 +38,8 @@ struct Surface {
   std::vector<std::uint32_t> first, members;
 };
 
-// `skin_m`: closed parts whose volume over area is below it count as shells.
-Surface surface_of(const assets::Model& model, double skin_m = 0);
+// `sheets`: closed parts that are at least so many times as wide as thick count as shells too.
+Surface surface_of(const assets::Model& model, double sheets = 25);
 
 // Within a solid part: signed crossings of the ray upward; no ray slips through an edge.
 bool inside(const Surface& surface, const V3d& point);

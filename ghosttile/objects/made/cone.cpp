@@ -43,7 +43,7 @@ Model make_cone(const MadeOptions& options) {
   g.material = g.cap_material = add_material(model, options.form, Rgb(1, 1, 1), texture);
   const float thick = pine ? draws.between(0.30f, 0.36f) : draws.between(0.125f, 0.15f);
   const float bow = pine ? draws.around(0, 0.02f) : draws.around(0, 0.06f);
-  const float open = pine ? 0.24f : 0.15f;
+  const float open = pine ? 0.15f : 0.12f;
   for (int r = 0; r < rows; ++r) {
     const float s = static_cast<float>(r) / static_cast<float>(rows - 1);
     // Widest at a third, rounded at the foot, narrower at the tip.
@@ -56,7 +56,7 @@ Model make_cone(const MadeOptions& options) {
       const float radius = thick * profile * (tip ? 1 + open * draws.between(0.7f, 1.2f) : 1 - open);
       const SinCos a = sin_cos(2 * pi * static_cast<float>(k) / static_cast<float>(columns));
       // Tips stand a little toward the cone's end. Around x, anticlockwise seen from its tip.
-      const float x = s + (tip ? 0.35f : -0.15f) / static_cast<float>(rows);
+      const float x = s + (tip ? 0.25f : -0.1f) / static_cast<float>(rows);
       ring.push_back({x, bow * 4 * s * (1 - s) + radius * a.cos, radius * a.sin});
     }
     g.rings.push_back(std::move(ring));

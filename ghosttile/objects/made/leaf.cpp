@@ -62,7 +62,16 @@ class Painting {
   assets::grown::Canvas paint() const {
     assets::grown::Canvas canvas(size, size);
     for (int y = 0; y < size; ++y) {
-      for (int x = 0; x < size; ++x) canvas.at(x, y) = texel(x, y);
+      const std::vector<float> upper = crossings(static_cast<float>(y) + 0.25f),
+                               lower = crossings(static_cast<float>(y) + 0.75f);
+      for (int x = 0; x < size; ++x) {
+        float covered = 0;
+        for (const float dx : {0.25f, 0.75f}) {
+          const float at = place(static_cast<float>(x) + dx, 0).x;
+          covered += 0.25f * static_cast<float>(within(upper, at) + within(lower, at));
+        }
+        canvas.at(x, y) = texel(x, y, covered);
+      }
     }
     return canvas;
   }
@@ -73,13 +82,23 @@ class Painting {
     return {(2 * x / size - 1) * half_view / (1 - leaf_.stalk), (1 - y / size - leaf_.stalk) / (1 - leaf_.stalk)};
   }
 
-  assets::grown::Texel texel(int x, int y) const {
+  // Where a row of the texture crosses the outline.
+  std::vector<float> crossings(float row) const {
+    const float y = place(0, row).y;
+    std::vector<float> result;
+    for (std::size_t i = 0, j = leaf_.edge.size() - 1; i < leaf_.edge.size(); j = i++) {
+      const V2 &a = leaf_.edge[i], &b = leaf_.edge[j];
+      if ((a.y > y) != (b.y > y)) result.push_back(a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)));
+    }
+    return result;
+  }
+  static int within(const std::vector<float>& crossings, float x) {
+    return static_cast<int>(std::count_if(crossings.begin(), crossings.end(), [x](float c) { return c > x; }) & 1);
+  }
+
+  assets::grown::Texel texel(int x, int y, float covered) const {
     const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
     assets::grown::Texel t;
-    float covered = 0;
-    for (const float dy : {0.25f, 0.75f}) {
-      for (const float dx : {0.25f, 0.75f}) covered += within(leaf_.edge, place(fx + dx, fy + dy)) ? 0.25f : 0;
-    }
     const V2 p = place(fx + 0.5f, fy + 0.5f);
     float share = 0;
     const float texel_width = 1 / (size * (1 - leaf_.stalk));

@@ -24,7 +24,11 @@ std::vector<V2> both_sides(std::span<const V2> half, float wander, Draws& draws)
 
 // Side veins that leave the midrib in pairs and run toward the edge, rising at `angle`.
 void feather(LeafOutline& leaf, int pairs, float low, float high, float rise, const auto& half_width) {
-  leaf.veins.push_back({V2(0, -1), V2(0, 0.98f), 0.022f});
+  leaf.veins.push_back({V2(0, -1), V2(0, 0), 0.022f});
+  for (int k = 0; k < 6; ++k) {
+    const auto y = static_cast<float>(k) * 0.163f;
+    leaf.veins.push_back({V2(0, y), V2(0, y + 0.163f), 0.022f * (1 - 0.5f * y)});
+  }
   for (int i = 0; i < pairs; ++i) {
     const float y = mix(low, high, static_cast<float>(i) / static_cast<float>(pairs - 1));
     for (const float side : {-1.0f, 1.0f}) {
@@ -46,9 +50,7 @@ std::vector<V2> sampled(HalfWidth&& half_width, int count) {
   return half;
 }
 
-}  // namespace
-
-LeafOutline leaf_outline(const std::string& form, Draws& draws) {
+LeafOutline drawn(const std::string& form, Draws& draws) {
   LeafOutline leaf;
   if (form == "maple-leaf") {
     leaf.stalk = 0.34f;
@@ -79,7 +81,7 @@ LeafOutline leaf_outline(const std::string& form, Draws& draws) {
     const auto half = [](float y) {
       const float whole = 0.33f * power(sine(pi * power(y, 1.35f)), 0.62f);
       const float lobe = 0.5f + 0.5f * sine(2 * pi * (4.3f * y + 0.62f));
-      return whole * (0.56f + 0.44f * power(lobe, 0.8f));
+      return whole * (0.55f + 0.45f * power(lobe, 0.5f));
     };
     leaf.edge = both_sides(sampled(half, 48), 0.006f, draws);
     feather(leaf, 5, 0.12f, 0.74f, 0.75f, half);
@@ -108,13 +110,22 @@ LeafOutline leaf_outline(const std::string& form, Draws& draws) {
   return leaf;
 }
 
-bool within(const std::vector<V2>& polygon, const V2& p) {
-  bool in = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const V2 &a = polygon[i], &b = polygon[j];
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y))) in = !in;
+}  // namespace
+
+LeafOutline leaf_outline(const std::string& form, Draws& draws) {
+  LeafOutline leaf = drawn(form, draws);
+  // No two leaves are as wide, and their midribs bend.
+  const float width = draws.between(0.86f, 1.08f), bow = draws.around(0, 0.10f), skew = draws.around(0, 0.06f);
+  const auto bent = [&](const V2& p) {
+    const float y = clamp01(p.y);
+    return V2(p.x * width + bow * y * (1 - y), p.y + skew * p.x);
+  };
+  for (V2& p : leaf.edge) p = bent(p);
+  for (Vein& v : leaf.veins) {
+    v.from = bent(v.from);
+    v.to = bent(v.to);
   }
-  return in;
+  return leaf;
 }
 
 }  // namespace ghosttile::objects::made

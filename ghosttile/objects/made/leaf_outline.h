@@ -22,6 +22,4 @@ struct LeafOutline {
 
 LeafOutline leaf_outline(const std::string& form, Draws& draws);
 
-bool within(const std::vector<V2>& polygon, const V2& p);
-
 }  // namespace ghosttile::objects::made

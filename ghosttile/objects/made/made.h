@@ -38,6 +38,11 @@ struct MadeForm {
   std::string help;  // one line
   float length_m = 0;
   std::size_t most_triangles = 0;
+  // Spheres that suit it: so many, fitted with this outside_share (sphere_fit.h); or, where foot_share is above 0, a single
+  // one around the foot with that share of the height as radius, because blades of neighbours go through each other.
+  int spheres = 24;
+  float outside_share = 0.1f;
+  float foot_share = 0;
 };
 
 const std::vector<MadeForm>& made_forms();

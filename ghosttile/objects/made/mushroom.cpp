@@ -9,7 +9,7 @@ namespace ghosttile::objects::made {
 
 namespace {
 
-constexpr int size = 128, sides = 18;
+constexpr int size = 256, sides = 18;
 constexpr float stalk_v = 0.60f, gills_v = 0.45f;  // below is stalk, between the cap's lower side, above (to 0) the cap
 
 struct Profile {
@@ -18,7 +18,7 @@ struct Profile {
 
 // Unit height, foot to top.
 std::vector<Profile> profile_of(bool cep, Draws& draws) {
-  const float cap = cep ? draws.between(0.46f, 0.58f) : draws.between(0.42f, 0.55f);
+  const float cap = cep ? draws.between(0.38f, 0.50f) : draws.between(0.42f, 0.55f);
   const float stalk = cep ? draws.between(0.15f, 0.20f) : draws.between(0.07f, 0.085f);
   const float rim = cep ? 0.60f : draws.between(0.70f, 0.76f);
   const float bulb = cep ? 1.35f : 1.7f;
@@ -55,7 +55,7 @@ assets::grown::Canvas paint(bool cep, const Rgb& cap, std::uint64_t seed) {
   for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x) {
       const float u = (static_cast<float>(x) + 0.5f) / size, v = (static_cast<float>(y) + 0.5f) / size;
-      const float patch = rough(u, v, 4, 4, salt), fine = rough(u, v, 20, 20, salt + 5);
+      const float patch = rough(u, v, 4, 4, salt), fine = rough(u, v, 24, 24, salt + 5);
       Rgb c;
       if (v > stalk_v) {
         const float line = assets::grown::tiling_noise(u * 24, v * 5, 24, 5, salt + 9);

@@ -47,11 +47,11 @@ Model make_needle(const MadeOptions& options) {
     return model;
   }
   // Two that part from one foot.
-  const float gap = draws.between(0.06f, 0.22f);
+  const float gap = draws.between(0.04f, 0.15f);
   for (const float side : {-1.0f, 1.0f}) {
     const V3 tip(draws.between(0.93f, 1.0f), side * gap, draws.around(0, 0.05f));
-    add_spindle(model, {0, 0, 0}, tip, {0, draws.around(-0.3f * side * gap, 0.05f), draws.around(0, 0.03f)}, 0.0135f, 1,
-                material);
+    add_spindle(model, {0, 0, 0}, tip, {0, draws.around(0.12f * side * gap, 0.015f), draws.around(0, 0.03f)}, 0.0135f,
+                1, material);
   }
   return model;
 }

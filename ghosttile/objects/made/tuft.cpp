@@ -51,8 +51,8 @@ Model make_tuft(const MadeOptions& options) {
   }
 
   // Unit height. Inner blades are long and upright, outer ones short and flat.
-  const int blades = sedge ? 40 : 24 + static_cast<int>(draws.share() * 20);
-  const float foot_radius = sedge ? 0.07f : 0.10f, thin = sedge ? 0.0075f : 0.0125f;
+  const int blades = sedge ? 46 : 34 + static_cast<int>(draws.share() * 14);
+  const float foot_radius = sedge ? 0.07f : 0.10f, thin = sedge ? 0.0085f : 0.015f;
   std::vector<assets::grown::Rib> ribs(4);
   for (int b = 0; b < blades; ++b) {
     const float outer = std::sqrt((static_cast<float>(b) + draws.share()) / static_cast<float>(blades));
@@ -60,8 +60,8 @@ Model make_tuft(const MadeOptions& options) {
     const V3 out(around.cos, around.sin, 0);
     const SinCos spread = sin_cos(draws.bell() * 0.5f);
     const V3 lean_way = assets::grown::unit(out * spread.cos + V3(-out.y, out.x, 0) * spread.sin);
-    float lean = mix(0.05f, sedge ? 0.55f : 0.75f, outer) * draws.between(0.6f, 1.2f);
-    const float bend = (sedge ? 1.5f : 0.8f) * draws.between(0.5f, 1.3f) * (0.5f + 0.5f * outer);
+    float lean = mix(0.05f, sedge ? 0.40f : 0.65f, outer) * draws.between(0.6f, 1.2f);
+    const float bend = (sedge ? 1.0f : 0.9f) * draws.between(0.5f, 1.3f) * (0.5f + 0.5f * outer);
     const float length = mix(1.05f, 0.55f, outer * outer) * draws.between(0.65f, 1.1f) * (sedge ? 1.2f : 1.0f);
     V3 at = out * (foot_radius * outer * draws.between(0.6f, 1.1f));
     const float twist = draws.around(0, 0.7f);

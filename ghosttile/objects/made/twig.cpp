@@ -25,7 +25,7 @@ Wood wood_of(const std::string& form) {
   if (form == "branch")
     return {0.026f, 0.45f, 0.20f, 7, 7, 2, 3, 0.22f, false, Bark::fissured, Rgb(0.115f, 0.092f, 0.072f)};
   if (form == "stick")
-    return {0.022f, 0.75f, 0.07f, 7, 7, 0, 1, 0.08f, true, Bark::smooth, Rgb(0.135f, 0.105f, 0.078f)};
+    return {0.022f, 0.75f, 0.07f, 7, 6, 0, 1, 0.08f, true, Bark::smooth, Rgb(0.135f, 0.105f, 0.078f)};
   return {0.0125f, 0.35f, 0.30f, 7, 6, 2, 3, 0.38f, false, Bark::smooth, Rgb(0.105f, 0.075f, 0.055f)};
 }
 
@@ -62,10 +62,9 @@ Model make_twig(const MadeOptions& options) {
   if (wood.cut) {
     Tube peeled = tube;
     peeled.material = tube.cap_material;
-    peeled.sides = 6;
     for (const bool tip : {false, true}) {
       const std::size_t end = tip ? joints.size() - 1 : 0, next = tip ? end - 1 : 1;
-      const float r = joints[end].radius * 1.06f;
+      const float r = joints[end].radius * 1.2f;
       const V3 inward = assets::grown::unit(joints[next].at - joints[end].at);
       // Pointed, as teeth leave it.
       const std::vector<Joint> sleeve{{joints[end].at - inward * (2.2f * r), 0.25f * r},

@@ -227,7 +227,7 @@ TEST(SphereFit, RefusesBadModelsByName) {
   m = shapes::box({1, 1, 1});
   refused(m, "1 to 1024", {.spheres = 1'000'000});
   refused(m, "1 to 1024", {.spheres = 0});
-  refused(m, "0 to 1", {.outside_share = std::numeric_limits<float>::quiet_NaN()});
+  refused(m, "0 to 10", {.outside_share = std::numeric_limits<float>::quiet_NaN()});
   refused(m, "not a length", {.thickness_m = -1});
 }
 
