@@ -8,7 +8,8 @@
 //   `outside_share` of its radius, measured against the triangles themselves. Same bytes for the same arguments anywhere;
 //   turning and scaling the model turns and scales the spheres, but for rounding.
 // Errors: base::Error naming the model: what surface.h refuses, options out of range, a shell too large for its thickness.
-// Threads: any number at once. Cost: about 0.1 s for a stone of 320 triangles; grows with samples squared.
+// Threads: any number at once. Cost: 0.1 s for a stone of 320 triangles, 0.25 s for 20,000, 2.8 s for 330,000; 1024
+// spheres in a box 4.7 s.
 // Source: Ma, Bae and Choi 2012 (balls); Stolpner, Kry and Siddiqi 2012 (choice of medial spheres); Guérin et al. 2016, 4.3.
 #pragma once
 

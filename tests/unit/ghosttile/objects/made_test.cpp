@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <ostream>
 
 #include "assets/normals.h"
 #include "assets/texture.h"

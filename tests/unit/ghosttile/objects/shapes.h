@@ -1,6 +1,7 @@
 // Bodies whose volume and distance are known, for the tests of sphere sets.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
