@@ -124,11 +124,13 @@ class RasterPlane final : public Plane {
     const double v_least = row_of(grid_, north), v_most = row_of(grid_, south);
     const int first_column = cell_column(u_least), last_column = std::max(cell_column(u_most), first_column);
     const int first_row = cell_row(v_least), last_row = std::max(cell_row(v_most), first_row);
+    const int beyond_column = std::min(last_column + 1, raster_->columns - 1),
+              beyond_row = std::min(last_row + 1, raster_->rows - 1);
     constexpr int few = 3;
-    if (!missing_ && last_column - first_column < few && last_row - first_row < few)
+    if (last_column - first_column < few && last_row - first_row < few &&
+        !(missing_ && any_missing(first_column, beyond_column, first_row, beyond_row)))
       return exact_bounds(u_least, u_most, v_least, v_most, first_column, last_column, first_row, last_row);
-    return pyramid_.range(raster_->heights_m, first_column, first_row, std::min(last_column + 1, raster_->columns - 1),
-                          std::min(last_row + 1, raster_->rows - 1));
+    return pyramid_.range(raster_->heights_m, first_column, first_row, beyond_column, beyond_row);
   }
 
  private:
@@ -152,17 +154,18 @@ class RasterPlane final : public Plane {
   int cell_column(double u) const { return std::min(static_cast<int>(u), grid_.last_cell_column); }
   int cell_row(double v) const { return std::min(static_cast<int>(v), grid_.last_cell_row); }
 
+  float height(int column, int row) const {
+    return raster_->heights_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(raster_->columns) +
+                              static_cast<std::size_t>(column)];
+  }
+
   Cell cell_at(double u, double v) const {
     Cell cell{cell_column(u), cell_row(v)};
     const int east = std::min(cell.column + 1, raster_->columns - 1), south = std::min(cell.row + 1, raster_->rows - 1);
-    const auto at = [&](int column, int row) {
-      return raster_->heights_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(raster_->columns) +
-                                static_cast<std::size_t>(column)];
-    };
-    cell.north_west = at(cell.column, cell.row);
-    cell.north_east = at(east, cell.row);
-    cell.south_west = at(cell.column, south);
-    cell.south_east = at(east, south);
+    cell.north_west = height(cell.column, cell.row);
+    cell.north_east = height(east, cell.row);
+    cell.south_west = height(cell.column, south);
+    cell.south_east = height(east, south);
     return cell;
   }
 
@@ -170,6 +173,13 @@ class RasterPlane final : public Plane {
     const Cell cell = cell_at(u, v);
     const double s = u - cell.column, t = v - cell.row;
     return static_cast<float>(cell.whole() ? between(cell, s, t) : between_known(cell, s, t));
+  }
+
+  bool any_missing(int first_column, int last_column, int first_row, int last_row) const {
+    for (int row = first_row; row <= last_row; ++row)
+      for (int column = first_column; column <= last_column; ++column)
+        if (std::isnan(height(column, row))) return true;
+    return false;
   }
 
   // What is bilinear takes its least and greatest in corners: of the rectangle, and of the cells that it meets.

@@ -30,7 +30,8 @@ enum class Kind : std::uint8_t {
   differ,     // the first less all others: min(first, 1 - other)
   multiply,   // the product: a shape times a response
   scale,      // the only child times `value`
-  warp,       // the only child at a place moved by noise: `size.x` how far, `radius_m` the noise's wavelength
+  warp,  // the only child at a place moved by noise: `size.x` how far at most along each axis, `radius_m` the noise's
+         // wavelength; shapes fold over where `size.x` is above about a quarter of it
 };
 
 struct Node {

@@ -73,6 +73,19 @@ TEST(GroundPlane, BoundsOfEverythingAreTheLeastAndTheGreatest) {
   }
 }
 
+// One hole somewhere does not widen the bounds elsewhere.
+TEST(GroundPlane, BoundsOfATileOnACoarseSlopeAreItsOwn) {
+  Terrain terrain;
+  terrain.columns = terrain.rows = 20;
+  terrain.north = 600;
+  terrain.cell_width_m = terrain.cell_height_m = 30;
+  for (int i = 0; i < 400; ++i) terrain.heights_m.push_back(static_cast<float>(30 * (i % 20)));
+  terrain.heights_m[399] = std::numeric_limits<float>::quiet_NaN();
+  const Range range = ground_plane(terrain)->bounds(100, 100, 100.5, 100.5);
+  EXPECT_NEAR(range.least, 85, 1e-3f);
+  EXPECT_NEAR(range.most, 85.5f, 1e-3f);
+}
+
 TEST(GroundPlane, EmptyTerrainIsFlatLandAtZero) {
   const Terrain none;
   const auto plane = ground_plane(none);
