@@ -63,7 +63,7 @@ std::vector<ElementRule> tile_rules() {
         required(count_of("count", "candidates in the tile", "", 65535)),
         within(attribute("least-scale", VT::number, "of the candidates' sizes", "1"), 1e-3, 1e3),
         within(attribute("most-scale", VT::number, "of the candidates' sizes", "1"), 1e-3, 1e3),
-        count_of("spheres", "at most so many stand for it where collisions are looked for", "24", 1024),
+        count_of("spheres", "at most so many stand for it where collisions are looked for; default: as its form needs, 24 for a model", "", 1024),
         within(attribute("thickness", VT::length,
                          "radius of the spheres of what has no volume; default: as the number of spheres needs"),
                0, 100),

@@ -80,12 +80,23 @@ struct ObjectPlan {
 ObjectPlan plan_of(const xml::Node& node, std::uint64_t seed, Errors& errors) {
   ObjectPlan plan;
   plan.node = &node;
-  plan.fit.spheres = static_cast<int>(node.number("spheres"));
+  for (const objects::made::MadeForm& form : objects::made::made_forms()) {
+    if (!node.has("made") || form.name != node.string("made")) continue;
+    plan.fit.spheres = form.spheres;
+    plan.fit.outside_share = form.outside_share;
+    // Blades of neighbouring tufts pass through each other; their feet do not.
+    if (form.foot_share > 0) {
+      const float height_m = node.has("length") ? static_cast<float>(node.number("length")) : form.length_m;
+      plan.given.push_back({{0, 0, form.foot_share * height_m}, form.foot_share * height_m});
+    }
+  }
+  if (node.has("spheres")) plan.fit.spheres = static_cast<int>(node.number("spheres"));
   plan.fit.seed = seed;
   if (node.has("thickness")) plan.fit.thickness_m = static_cast<float>(node.number("thickness"));
   plan.anchors.places = anchor_places(node.string("anchor"));
   plan.anchors.count = static_cast<int>(node.number("anchors"));
   plan.anchors.seed = seed;
+  if (!node.all("GivenSphere").empty()) plan.given.clear();
   for (const xml::Node* sphere : node.all("GivenSphere"))
     plan.given.push_back({assets::V3(place(*sphere, "at", errors)), static_cast<float>(sphere->number("radius"))});
   for (const xml::Node* anchor : node.all("GivenAnchor")) {

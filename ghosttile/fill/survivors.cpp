@@ -44,7 +44,7 @@ class Culling {
         tile_(*plan.tile),
         box_(box),
         columns_(object_columns(tile_)),
-        reach_(static_cast<double>(tile::reach_of(tile_))) {}
+        reach_(static_cast<double>(tile::reach_of(tile_)) + density::gradient_step_m) {}
 
   Chunk chunk(const TileBox& box) const {
     Chunk chunk;
