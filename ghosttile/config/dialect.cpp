@@ -63,7 +63,10 @@ std::vector<ElementRule> tile_rules() {
         required(count_of("count", "candidates in the tile", "", 65535)),
         within(attribute("least-scale", VT::number, "of the candidates' sizes", "1"), 1e-3, 1e3),
         within(attribute("most-scale", VT::number, "of the candidates' sizes", "1"), 1e-3, 1e3),
-        count_of("spheres", "at most so many stand for it where collisions are looked for; default: as its form needs, 24 for a model", "", 1024),
+        count_of(
+            "spheres",
+            "at most so many stand for it where collisions are looked for; default: as its form needs, 24 for a model",
+            "", 1024),
         within(attribute("thickness", VT::length,
                          "radius of the spheres of what has no volume; default: as the number of spheres needs"),
                0, 100),
@@ -313,8 +316,24 @@ std::vector<ElementRule> scene_rules() {
   };
 }
 
+std::vector<std::string> types_of(const std::vector<ElementRule>& rules) {
+  std::vector<std::string> types;
+  for (const ElementRule& rule : rules) types.push_back(rule.type);
+  return types;
+}
+
 xml::Dialect make() {
   xml::Dialect dialect;
+  dialect.program = "ghosttile";
+  dialect.about = "Ghost Tiles, scenes of details, and strokes";
+  dialect.roots = {"Details", "GhostTile", "Strokes"};
+  dialect.chapters = {{"Scenes", {"Details"}},
+                      {"Ghost Tiles", types_of(tile_rules())},
+                      {"Strokes", {"Strokes", "AddStroke", "RemoveStroke"}},
+                      {"Densities: shapes", types_of(primitive_rules())},
+                      {"Densities: operators", types_of(operator_rules())},
+                      {"Rules over the land", types_of(cover::cover_rules())},
+                      {"Properties", types_of(cover::property_rules())}};
   for (const auto& family : {tile_rules(), scene_rules(), primitive_rules(), operator_rules(), cover::cover_rules(),
                              cover::property_rules()})
     dialect.rules.insert(dialect.rules.end(), family.begin(), family.end());

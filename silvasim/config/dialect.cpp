@@ -67,6 +67,16 @@ Dialect make_dialect(std::vector<ElementRule> properties, std::vector<ElementRul
     if (rule.type == "Pipeline" || rule.type == "Product" || rule.type == "Length") rule.children = steps;
     if (rule.type == "Property") rule.children = responses;
   }
+  dialect.program = "silvasim";
+  dialect.about = "the ecosystem file and the plants file";
+  dialect.roots = {"Ecosystem", "Plants"};
+  Chapter responses_to{"Properties", dialect.properties};
+  responses_to.types.insert(responses_to.types.end(), {"ClassValue", "TablePoint"});
+  dialect.chapters = {
+      {"The ecosystem file", {"Ecosystem"}},
+      {"The plants file", {"Plants", "Plant", "Model", "Scale", "Neighbourhood", "PlantInfluence", "Property"}},
+      std::move(responses_to),
+      {"Evaluators", dialect.evaluators}};
   dialect.rules.insert(dialect.rules.end(), properties.begin(), properties.end());
   dialect.rules.insert(dialect.rules.end(), evaluators.begin(), evaluators.end());
   dialect.rules.push_back({"ClassValue",

@@ -36,23 +36,19 @@ std::string inside(const ElementRule& rule, const Dialect& dialect) {
 
 // Rows of the manual and the overview: what belongs together, in the order in which a reader needs it.
 std::vector<std::pair<std::string, std::vector<const ElementRule*>>> chapters(const Dialect& dialect) {
-  const auto is_one_of = [](const std::vector<std::string>& types, const ElementRule& rule) {
-    return std::find(types.begin(), types.end(), rule.type) != types.end();
+  std::vector<std::pair<std::string, std::vector<const ElementRule*>>> all;
+  for (const Chapter& chapter : dialect.chapters) all.push_back({chapter.title, {}});
+  const auto chapter_of = [&](const std::string& type) {
+    for (std::size_t c = 0; c < dialect.chapters.size(); ++c) {
+      const std::vector<std::string>& types = dialect.chapters[c].types;
+      if (std::find(types.begin(), types.end(), type) != types.end()) return c;
+    }
+    return std::size_t{0};
   };
-  const std::vector<std::string> flora = {"Plants",        "Plant",          "Model",   "Scale",
-                                          "Neighbourhood", "PlantInfluence", "Property"};
-  const std::vector<std::string> parts = {"ClassValue", "TablePoint"};
-  std::vector<std::pair<std::string, std::vector<const ElementRule*>>> all = {
-      {"The ecosystem file", {}}, {"The plants file", {}}, {"Properties", {}}, {"Evaluators", {}}};
-  all[0].second.push_back(&dialect.rule("Ecosystem"));
-  all[1].second.push_back(&dialect.rule("Plants"));
+  for (const std::string& root : dialect.roots) all[chapter_of(root)].second.push_back(&dialect.rule(root));
   for (const ElementRule& rule : dialect.rules) {
-    if (rule.type == "Ecosystem" || rule.type == "Plants") continue;
-    const std::size_t chapter = is_one_of(dialect.evaluators, rule)                             ? 3
-                                : is_one_of(dialect.properties, rule) || is_one_of(parts, rule) ? 2
-                                : is_one_of(flora, rule)                                        ? 1
-                                                                                                : 0;
-    all[chapter].second.push_back(&rule);
+    if (std::find(dialect.roots.begin(), dialect.roots.end(), rule.type) == dialect.roots.end())
+      all[chapter_of(rule.type)].second.push_back(&rule);
   }
   return all;
 }
@@ -69,7 +65,7 @@ std::string help_overview(const Dialect& dialect) {
       text += name + first_sentence(rule->help) + "\n";
     }
   }
-  return text + "\nsilvasim help ELEMENT tells its attributes, what stands inside, and an example.\n";
+  return text + "\n" + dialect.program + " help ELEMENT tells its attributes, what stands inside, and an example.\n";
 }
 
 std::string help_element(const Dialect& dialect, const std::string& name) {
@@ -87,10 +83,9 @@ std::string help_element(const Dialect& dialect, const std::string& name) {
 }
 
 std::string help_manual(const Dialect& dialect) {
-  std::string text =
-      "# The dialect\n\nEvery element of the ecosystem file and the plants file. This page is written by `silvasim "
-      "help "
-      "--manual` from the tables that the parser works by.\n";
+  std::string text = "# The dialect" + (dialect.program == "silvasim" ? std::string() : " of " + dialect.program) +
+                     "\n\nEvery element of " + dialect.about + ". This page is written by `" + dialect.program +
+                     " help --manual` from the tables that the parser works by.\n";
   for (const auto& [title, rules] : chapters(dialect)) {
     text += "\n## " + title + "\n";
     for (const ElementRule* rule : rules) {

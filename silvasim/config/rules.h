@@ -54,8 +54,18 @@ struct ElementRule {
   std::string example;  // XML, for the help
 };
 
+// What the help and the manual put together.
+struct Chapter {
+  std::string title;
+  std::vector<std::string> types;  // of the dialect's rules; the first chapter has all that stand in none
+};
+
 // The whole grammar. `properties` and `evaluators` are the types of those families, in the order of their tables.
 struct Dialect {
+  std::string program;             // whose files they are: "silvasim"
+  std::string about;               // "the ecosystem file and the plants file"
+  std::vector<std::string> roots;  // types that a file may begin with; each comes first in its chapter
+  std::vector<Chapter> chapters;   // one at least
   std::vector<ElementRule> rules;
   std::vector<std::string> properties;
   std::vector<std::string> evaluators;

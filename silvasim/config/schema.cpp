@@ -113,12 +113,11 @@ std::string simple_types() {
 }  // namespace
 
 std::string xml_schema(const Dialect& dialect) {
-  std::string out =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<!-- Written by: silvasim schema. Silva's dialect of XML: the ecosystem file and the plants file. -->\n"
-      "<xs:schema xmlns:xs=\"http://www.w3.org/2001/XMLSchema\">\n"
-      "  <xs:element name=\"ecosystem\" type=\"Ecosystem\"/>\n"
-      "  <xs:element name=\"plants\" type=\"Plants\"/>\n";
+  std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<!-- Written by: " + dialect.program +
+                    " schema. Silva's dialect of XML: " + dialect.about +
+                    ". -->\n<xs:schema xmlns:xs=\"http://www.w3.org/2001/XMLSchema\">\n";
+  for (const std::string& root : dialect.roots)
+    out += "  <xs:element name=\"" + dialect.rule(root).tag + "\" type=\"" + root + "\"/>\n";
   out += simple_types();
   for (const ElementRule& rule : dialect.rules) out += complex_type(rule, dialect);
   return out + "</xs:schema>\n";
