@@ -46,6 +46,10 @@ V3 on_disc(const V3& sun, float u, float v) {
 // Where a shadow ray may begin: off the surface by what rounding needs, Embree's floats most. Not farther: what begins two
 // centimetres off a leaf misses its neighbours, and a wood under a low sun looks lighter by some per cent.
 double lift(double distance_m) { return 2e-3 + 1e-7 * distance_m; }
+// Details lie within millimetres of each other.
+double lift_of(accel::Surface surface, double distance_m) {
+  return surface == accel::Surface::detail ? 2e-4 + 1e-6 * distance_m : lift(distance_m);
+}
 
 }  // namespace
 
@@ -194,7 +198,8 @@ void Sampler::add_sun() {
       continue;
     }
     const V3 towards = on_disc(sun, sample.draws[2], sample.draws[3]);
-    if (!shade::ray_from(sample.point, sample.hit, towards, lift(sample.distance_m), ray) && options_.sun_shadows)
+    if (!shade::ray_from(sample.point, sample.hit, towards, lift_of(sample.hit.surface, sample.distance_m), ray) &&
+        options_.sun_shadows)
       continue;
     ray.width_m = width_at(sample);
     rays_.push_back(ray);
@@ -259,7 +264,7 @@ void Sampler::add_sky() {
       if (!(density > 0) || luminance(colour) <= 0) continue;
       const Rgb weight = colour * (cosine / (density * static_cast<float>(options_.sky_rays)));
       accel::Ray ray;
-      if (!shade::ray_from(sample.point, sample.hit, skyward, lift(sample.distance_m), ray)) {
+      if (!shade::ray_from(sample.point, sample.hit, skyward, lift_of(sample.hit.surface, sample.distance_m), ray)) {
         samples_[i].light += weight * light_.among;
         continue;
       }
@@ -316,6 +321,12 @@ void Sampler::keep_channels(const Pixel& pixel, const Sample& sample) {
     const std::uint32_t site = layer.tile_sites[layer.tiles[position]].site_ids[sample.hit.site_slot];
     channels_->species[i] = static_cast<std::uint16_t>(layer.first_species + sample.hit.species);
     channels_->plants[i] = static_cast<std::uint32_t>(layer.first_plant + layer.first_slot[position] + site);
+  } else if (sample.hit.surface == accel::Surface::detail) {
+    const scene::DetailLayer& layer = scene_.details[sample.hit.layer];
+    const scene::DetailFrame& frame = layer.frames[layer.chosen[sample.hit.site_slot]];
+    channels_->species[i] = static_cast<std::uint16_t>(layer.first_object + frame.object);
+    channels_->plants[i] =
+        static_cast<std::uint32_t>(layer.first_plant + scene::detail_number(layer, sample.hit.site_slot));
   }
 }
 

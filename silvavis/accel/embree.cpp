@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <string>
 #include <unordered_map>
@@ -12,6 +13,7 @@
 
 #include "silvasim/base/error.h"
 #include "silvavis/accel/embree_device.h"
+#include "silvavis/scene/detail_ray.h"
 #include "silvavis/scene/instance.h"
 
 namespace silvavis::accel {
@@ -26,6 +28,13 @@ struct Place {
   std::uint32_t position;  // column + row * columns, row 0 the southernmost
   std::uint32_t slot : 24;
   std::uint32_t layer : 8;
+};
+
+// Which detail.
+struct DetailPlace {
+  std::int32_t column, row, z;  // tile
+  std::uint32_t slot;           // into DetailLayer::chosen
+  std::uint8_t layer;
 };
 
 // What callbacks need of the ray they belong to, behind Embree's own context.
@@ -100,7 +109,9 @@ class Flatland final : public Tracer {
     add_ground();
     for (const auto& model : scene_.models) models_.push_back(make_model(*model));
     list_plants();
+    list_details();
     exact_ ? add_plants_as_primitives() : add_plants_as_instances();
+    if (!details_.empty()) exact_ ? add_details_as_primitives() : add_details_as_instances();
     rtcCommitScene(top_);
     check();
   }
@@ -130,7 +141,10 @@ class Flatland final : public Tracer {
     }
   }
 
-  std::size_t bytes() const override { return static_cast<std::size_t>(bytes_) + places_.capacity() * sizeof(Place); }
+  std::size_t bytes() const override {
+    return static_cast<std::size_t>(bytes_) + places_.capacity() * sizeof(Place) +
+           details_.capacity() * sizeof(DetailPlace);
+  }
 
  private:
   static bool count_bytes(void* sum, ssize_t change, bool) {
@@ -219,7 +233,11 @@ class Flatland final : public Tracer {
       hit.surface = Surface::ground;
       return hit;
     }
-    set_place(hit, places_[instance - 1]);
+    if (instance > places_.size()) {
+      set_place(hit, details_[instance - 1 - places_.size()]);
+    } else {
+      set_place(hit, places_[instance - 1]);
+    }
     hit.slot = slot;
     hit.u = u;
     hit.v = v;
@@ -243,6 +261,25 @@ class Flatland final : public Tracer {
     hit.site_slot = place.slot;
     hit.species = layer.plant_species[layer.first_slot[layer.position(hit.column, hit.row)] + place.slot];
     hit.model = instance_of(place).model;
+  }
+
+  const scene::DetailFrame& frame_of(const DetailPlace& place) const {
+    const scene::DetailLayer& layer = scene_.details[place.layer];
+    return layer.frames[layer.chosen[place.slot]];
+  }
+  V3d corner_of(const DetailPlace& place) const {
+    const scene::DetailLayer& layer = scene_.details[place.layer];
+    return {layer.corner.x + (place.column - layer.first_x) * layer.side_m,
+            layer.corner.y + (place.row - layer.first_y) * layer.side_m, place.z * layer.side_m};
+  }
+
+  void set_place(Hit& hit, const DetailPlace& place) const {
+    hit.surface = Surface::detail;
+    hit.layer = place.layer;
+    hit.column = place.column;
+    hit.row = place.row;
+    hit.site_slot = place.slot;
+    hit.model = frame_of(place).model;
   }
 
   void add_ground() {
@@ -326,6 +363,90 @@ class Flatland final : public Tracer {
     }
   }
 
+  void list_details() {
+    for (std::size_t k = 0; k < scene_.details.size(); ++k) {
+      const scene::DetailLayer& layer = scene_.details[k];
+      if (layer.nodes.empty()) continue;
+      const auto list = [&](auto& self, std::uint32_t index, int level, int column, int row) -> void {
+        const scene::DetailNode& node = layer.nodes[index];
+        std::uint32_t child = node.first;
+        for (std::uint32_t bits = node.children; bits != 0; bits &= bits - 1, ++child) {
+          const int at = std::countr_zero(bits), x = column * 4 + (at & 3), y = row * 4 + (at >> 2);
+          if (level > 0) {
+            self(self, child, level - 1, x, y);
+            continue;
+          }
+          for (std::uint32_t t = layer.columns[child].first_tile; t < layer.columns[child + 1].first_tile; ++t)
+            for (std::uint32_t slot = layer.tiles[t].first; slot < layer.tiles[t + 1].first; ++slot)
+              details_.push_back(
+                  {layer.first_x + x, layer.first_y + y, layer.tiles[t].z, slot, static_cast<std::uint8_t>(k)});
+        }
+      };
+      list(list, 0, layer.levels - 1, 0, 0);
+    }
+  }
+
+  void add_details_as_instances() {
+    for (std::size_t i = 0; i < details_.size(); ++i) {
+      const scene::DetailFrame& frame = frame_of(details_[i]);
+      const V3d at = corner_of(details_[i]) + V3d(frame.at);
+      RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+      rtcSetGeometryInstancedScene(geometry, models_[frame.model]);
+      float matrix[12];
+      for (int axis = 0; axis < 3; ++axis) {
+        V3 unit(0, 0, 0);
+        unit[axis] = frame.scale;
+        const V3 column = frame.turned(unit);
+        std::copy_n(&column.x, 3, matrix + 3 * axis);
+      }
+      for (int axis = 0; axis < 3; ++axis) matrix[9 + axis] = static_cast<float>(at[axis]);
+      rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, matrix);
+      rtcCommitGeometry(geometry);
+      rtcAttachGeometryByID(top_, geometry, static_cast<unsigned int>(places_.size() + i + 1));
+      rtcReleaseGeometry(geometry);
+    }
+  }
+
+  void add_details_as_primitives() {
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned int>(details_.size()));
+    rtcSetGeometryUserData(geometry, this);
+    rtcSetGeometryBoundsFunction(geometry, bound_detail, this);
+    rtcSetGeometryIntersectFunction(geometry, [](const RTCIntersectFunctionNArguments* a) {
+      static_cast<const Flatland*>(a->geometryUserPtr)->meet_detail(*a);
+    });
+    rtcSetGeometryOccludedFunction(geometry, [](const RTCOccludedFunctionNArguments* a) {
+      static_cast<const Flatland*>(a->geometryUserPtr)->meet_detail(*a);
+    });
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(top_, geometry);
+    rtcReleaseGeometry(geometry);
+  }
+
+  static void bound_detail(const RTCBoundsFunctionArguments* arguments) {
+    const auto& self = *static_cast<const Flatland*>(arguments->geometryUserPtr);
+    const DetailPlace& place = self.details_[arguments->primID];
+    const scene::DetailLayer& layer = self.scene_.details[place.layer];
+    const V3d corner = self.corner_of(place);
+    const std::uint16_t candidate = layer.chosen[place.slot];
+    constexpr double slack_m = 0.01;
+    const auto least = [&](std::size_t a) {
+      return static_cast<float>(corner[static_cast<int>(a)] + static_cast<double>(layer.least_m[a][candidate]) -
+                                slack_m);
+    };
+    const auto most = [&](std::size_t a) {
+      return static_cast<float>(corner[static_cast<int>(a)] + static_cast<double>(layer.most_m[a][candidate]) +
+                                slack_m);
+    };
+    RTCBounds& box = *arguments->bounds_o;
+    box.lower_x = least(0);
+    box.lower_y = least(1);
+    box.lower_z = least(2);
+    box.upper_x = most(0);
+    box.upper_y = most(1);
+    box.upper_z = most(2);
+  }
+
   void add_plants_as_instances() {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const scene::Instance plant = instance_of(places_[i]);
@@ -383,8 +504,8 @@ class Flatland final : public Tracer {
     box.upper_z = static_cast<float>(plant.foot.z + static_cast<double>(model.most.z) * scale + slack_m);
   }
 
-  static RTCRay local_ray_of(const scene::LocalRay& local, const scene::Instance& plant, const Ray& ray, double best) {
-    const double size = 1.0 / static_cast<double>(plant.scale);
+  static RTCRay local_ray_of(const scene::LocalRay& local, float scale, const Ray& ray, double best) {
+    const double size = 1.0 / static_cast<double>(scale);
     RTCRay query{};
     query.org_x = local.origin.x;
     query.org_y = local.origin.y;
@@ -404,32 +525,32 @@ class Flatland final : public Tracer {
     return query;
   }
 
-  void meet(const RTCIntersectFunctionNArguments& arguments) const {
-    if (arguments.valid[0] == 0) return;
+  // A model by the ray in its own space; `set` fills in which instance it is.
+  template <typename SetPlace>
+  void meet_model(const RTCIntersectFunctionNArguments& arguments, const scene::LocalRay& local, float scale,
+                  std::uint32_t model, const SetPlace& set) const {
     auto& context = *reinterpret_cast<Context*>(arguments.context);
-    const Place& place = places_[arguments.primID];
-    const scene::Instance plant = instance_of(place);
-    const scene::LocalRay local = scene::local_ray(plant, context.ray->origin, context.ray->direction);
     auto* const outer = reinterpret_cast<RTCRayHit*>(arguments.rayhit);
     // The ground, which Embree meets by itself, shortens the ray too.
     const double best = std::min(context.best, static_cast<double>(outer->ray.tfar));
     RTCRayHit query{};
-    query.ray = local_ray_of(local, plant, *context.ray, best);
+    query.ray = local_ray_of(local, scale, *context.ray, best);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     if (query.ray.tfar <= query.ray.tnear) return;
     PlantContext inner;
     rtcInitIntersectContext(&inner.embree);
     inner.ray = &local;
-    rtcIntersect1(models_[plant.model], &inner.embree, &query);
+    rtcIntersect1(models_[model], &inner.embree, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
     const scene::TrianglePoint at =
-        scene::meet_triangle(*scene_.models[plant.model], query.hit.primID, local.origin, local.direction);
-    const double distance = local.start + static_cast<double>(at.t) * static_cast<double>(plant.scale);
+        scene::meet_triangle(*scene_.models[model], query.hit.primID, local.origin, local.direction);
+    const double distance = local.start + static_cast<double>(at.t) * static_cast<double>(scale);
     if (distance >= best || distance < context.ray->least) return;
     context.best = distance;
     Hit& hit = *context.hit;
-    set_place(hit, place);
+    hit = {};
+    set(hit);
     hit.distance = distance;
     hit.slot = query.hit.primID;
     hit.u = at.u;
@@ -440,18 +561,54 @@ class Flatland final : public Tracer {
     outer->hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   }
 
-  void meet(const RTCOccludedFunctionNArguments& arguments) const {
-    if (arguments.valid[0] == 0) return;
+  void bar_model(const RTCOccludedFunctionNArguments& arguments, const scene::LocalRay& local, float scale,
+                 std::uint32_t model) const {
     const auto& context = *reinterpret_cast<const Context*>(arguments.context);
-    const scene::Instance plant = instance_of(places_[arguments.primID]);
-    const scene::LocalRay local = scene::local_ray(plant, context.ray->origin, context.ray->direction);
-    RTCRay query = local_ray_of(local, plant, *context.ray, context.ray->most);
+    RTCRay query = local_ray_of(local, scale, *context.ray, context.ray->most);
     if (query.tfar <= query.tnear) return;
     PlantContext inner;
     rtcInitIntersectContext(&inner.embree);
     inner.ray = &local;
-    rtcOccluded1(models_[plant.model], &inner.embree, &query);
+    rtcOccluded1(models_[model], &inner.embree, &query);
     if (query.tfar < 0) reinterpret_cast<RTCRay*>(arguments.ray)->tfar = -std::numeric_limits<float>::infinity();
+  }
+
+  static const Ray& ray_of_context(const RTCIntersectContext* context) {
+    return *reinterpret_cast<const Context*>(context)->ray;
+  }
+
+  void meet(const RTCIntersectFunctionNArguments& arguments) const {
+    if (arguments.valid[0] == 0) return;
+    const Ray& ray = ray_of_context(arguments.context);
+    const Place& place = places_[arguments.primID];
+    const scene::Instance plant = instance_of(place);
+    meet_model(arguments, scene::local_ray(plant, ray.origin, ray.direction), plant.scale, plant.model,
+               [&](Hit& hit) { set_place(hit, place); });
+  }
+
+  void meet(const RTCOccludedFunctionNArguments& arguments) const {
+    if (arguments.valid[0] == 0) return;
+    const Ray& ray = ray_of_context(arguments.context);
+    const scene::Instance plant = instance_of(places_[arguments.primID]);
+    bar_model(arguments, scene::local_ray(plant, ray.origin, ray.direction), plant.scale, plant.model);
+  }
+
+  void meet_detail(const RTCIntersectFunctionNArguments& arguments) const {
+    if (arguments.valid[0] == 0) return;
+    const Ray& ray = ray_of_context(arguments.context);
+    const DetailPlace& place = details_[arguments.primID];
+    const scene::DetailFrame& frame = frame_of(place);
+    meet_model(arguments, scene::detail_ray(frame, corner_of(place), ray.origin, ray.direction), frame.scale,
+               frame.model, [&](Hit& hit) { set_place(hit, place); });
+  }
+
+  void meet_detail(const RTCOccludedFunctionNArguments& arguments) const {
+    if (arguments.valid[0] == 0) return;
+    const Ray& ray = ray_of_context(arguments.context);
+    const DetailPlace& place = details_[arguments.primID];
+    const scene::DetailFrame& frame = frame_of(place);
+    bar_model(arguments, scene::detail_ray(frame, corner_of(place), ray.origin, ray.direction), frame.scale,
+              frame.model);
   }
 
   const scene::Scene& scene_;
@@ -461,6 +618,7 @@ class Flatland final : public Tracer {
   RTCScene top_ = nullptr;
   std::vector<RTCScene> models_;
   std::vector<Place> places_;
+  std::vector<DetailPlace> details_;
 };
 
 }  // namespace

@@ -16,6 +16,7 @@ namespace silvavis::accel {
 
 HWY_EXPORT(trace_nearest);
 HWY_EXPORT(trace_occluded);
+HWY_EXPORT(details_nearest);
 HWY_EXPORT(model_nearest);
 HWY_EXPORT(model_occluded);
 
@@ -39,6 +40,9 @@ class Nested final : public Tracer {
 
 }  // namespace
 
+void trace_details(const scene::Scene& scene, std::span<const Ray> rays, std::span<Hit> hits) {
+  HWY_DYNAMIC_DISPATCH(details_nearest)(scene, rays, hits);
+}
 void trace_model(const scene::PlantModel& model, std::span<const ModelRay> rays, std::span<ModelPoint> points) {
   HWY_DYNAMIC_DISPATCH(model_nearest)(model, rays, points);
 }

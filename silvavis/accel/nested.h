@@ -12,6 +12,9 @@ namespace silvavis::accel {
 // `scene` must outlive it.
 std::unique_ptr<Tracer> make_nested(const scene::Scene& scene);
 
+// The details alone, without land and plants.
+void trace_details(const scene::Scene& scene, std::span<const Ray> rays, std::span<Hit> hits);
+
 // One model by itself, in its own space: what is made of models asks here.
 struct ModelRay {
   V3 origin{0, 0, 0};

@@ -6,6 +6,7 @@
 // not hang on its company.
 #include "silvavis/accel/nested.h"
 #include "silvavis/accel/nested_bundle.h"
+#include "silvavis/accel/nested_details.h"
 #include "silvavis/accel/nested_packet_sites.h"
 
 // No include guard: Highway includes it once for each target.
@@ -175,10 +176,27 @@ HWY_INLINE void trace(const scene::Scene& scene, std::span<const Ray> rays, Hit*
   const double apart_m = static_cast<double>(scene.land.pyramid.cell_x_m);
   for (std::size_t first = 0; first < rays.size(); first += bundle.count) {
     gather(rays.subspan(first), apart_m, bundle);
+    // Towards a light it is most often what lies beside that bars it; from the eye, what the land leaves of the way is short.
+    std::uint32_t barred = 0;
+    if (any_hit && !scene.details.empty()) {
+      for (std::size_t i = 0; i < bundle.count; ++i) {
+        double most = rays[first + i].most;
+        if (!meet_details<true>(scene, rays[first + i], most, hits[first + i])) continue;
+        barred |= 1u << i;
+        bundle.bests[i] = -1;
+      }
+      if (std::popcount(barred) == static_cast<int>(bundle.count)) continue;
+    }
     if (bundle.count > 1) {
       trace_bundle<any_hit>(scene, bundle, &rays[first], hits + first);
     } else {
       trace_one<any_hit>(scene, rays[first], hits[first]);
+    }
+    if (!any_hit && !scene.details.empty()) {
+      for (std::size_t i = first; i < first + bundle.count; ++i) {
+        double best = std::min(rays[i].most, hits[i].distance);
+        meet_details<false>(scene, rays[i], best, hits[i]);
+      }
     }
   }
 }
@@ -196,6 +214,14 @@ void trace_occluded(const scene::Scene& scene, std::span<const Ray> rays, std::s
     std::fill_n(hits, count, Hit{});
     trace<true>(scene, rays.subspan(first, count), hits);
     for (std::size_t i = 0; i < count; ++i) answers[first + i] = hits[i].surface != Surface::none ? 1 : 0;
+  }
+}
+
+void details_nearest(const scene::Scene& scene, std::span<const Ray> rays, std::span<Hit> hits) {
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    hits[i] = Hit{};
+    double best = rays[i].most;
+    meet_details<false>(scene, rays[i], best, hits[i]);
   }
 }
 

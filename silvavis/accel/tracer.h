@@ -33,12 +33,13 @@ struct Ray {
   std::uint8_t left_layer = 0;
 };
 
-enum class Surface : std::uint8_t { none, ground, plant };
+enum class Surface : std::uint8_t { none, ground, plant, detail };
 
 struct Hit {
   double distance = std::numeric_limits<double>::infinity();
   Surface surface = Surface::none;
-  std::uint8_t layer = 0;            // of the plant, and so on to the end
+  // Of the plant, and so on to the end; of a detail: into Scene::details, the tile's x and y, into DetailLayer::chosen.
+  std::uint8_t layer = 0;
   std::uint8_t species = 0;          // in its layer
   std::int32_t column = 0, row = 0;  // tile position, row 0 the southernmost
   std::uint32_t site_slot = 0;       // in TileSites

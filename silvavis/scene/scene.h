@@ -13,6 +13,7 @@
 #include "silvasim/base/geometry.h"
 #include "silvasim/base/lazy_vector.h"
 #include "silvasim/ecosystem/ecosystem.h"
+#include "silvavis/scene/detail_layer.h"
 #include "silvavis/scene/ground.h"
 #include "silvavis/scene/plant_model.h"
 #include "silvavis/scene/pyramid.h"
@@ -109,6 +110,7 @@ struct Scene {
   Ground ground;
   LandGrid land;
   std::vector<PlantLayer> layers;
+  std::vector<DetailLayer> details;  // may be made anew (scene/details.h) while nothing is traced
   std::vector<std::shared_ptr<const PlantModel>> models;
   std::uint64_t plants = 0;  // that are drawn
   std::uint64_t seed = 0;    // of the turns of plants

@@ -62,6 +62,11 @@ SurfacePoint ground_point(const scene::Scene& scene, const Land& land, const acc
                            std::sqrt(static_cast<double>(facing));
     point.reflectance = land_colour(land, point.at.x, point.at.y, point.normal, point.at.z,
                                     crowns_over(scene, point.at.x, point.at.y), width_m);
+    for (const scene::DetailLayer& layer : scene.details) {
+      const scene::DetailCover cover =
+          scene::detail_cover(layer, point.at, ray.width_m + ray.spread * static_cast<float>(distance_m));
+      point.reflectance = point.reflectance * (1 - cover.share) + cover.colour * cover.share;
+    }
   }
   return point;
 }
@@ -92,15 +97,24 @@ SurfacePoint surface_at(const scene::Scene& scene, const Land& land, const accel
                    scene::unpacked_normal(normals[2]) * v;
   const V3 a = model.position_of(slot, 0);
   const V3 plane = (model.position_of(slot, 1) - a).cross(model.position_of(slot, 2) - a);
-  const scene::Instance plant =
-      scene::instance_at(scene, scene.layers[hit.layer], hit.column, hit.row, hit.site_slot, hit.species);
-  point.turn = point.told ? turn_to(plant.side, ray.direction) : plant.turn;
-  point.plane = towards(scene::turned(point.turn, plane.normalized()), ray.direction);
-  // A vertex normal belongs to the side on which the triangle runs anticlockwise.
-  const V3 bent = scene::turned(point.turn, local.length2() > 1e-6f ? local.normalized() : plane.normalized());
-  const bool front = scene::turned(point.turn, plane).dot(ray.direction) <= 0;
-  point.normal = front ? bent : -bent;
-  if (point.normal.dot(ray.direction) > 0) point.normal = point.plane;
+  const auto look = [&](const auto& turned) {
+    point.plane = towards(turned(plane.normalized()), ray.direction);
+    // A vertex normal belongs to the side on which the triangle runs anticlockwise.
+    const V3 bent = turned(local.length2() > 1e-6f ? local.normalized() : plane.normalized());
+    const bool front = turned(plane).dot(ray.direction) <= 0;
+    point.normal = front ? bent : -bent;
+    if (point.normal.dot(ray.direction) > 0) point.normal = point.plane;
+  };
+  if (hit.surface == accel::Surface::detail) {
+    const scene::DetailLayer& layer = scene.details[hit.layer];
+    const scene::DetailFrame& frame = layer.frames[layer.chosen[hit.site_slot]];
+    look([&](const V3& of_model) { return frame.turned(of_model); });
+  } else {
+    const scene::Instance plant =
+        scene::instance_at(scene, scene.layers[hit.layer], hit.column, hit.row, hit.site_slot, hit.species);
+    point.turn = point.told ? turn_to(plant.side, ray.direction) : plant.turn;
+    look([&](const V3& of_model) { return scene::turned(point.turn, of_model); });
+  }
   point.reflectance = material.reflectance * tint;
   point.transmittance = material.transmittance * tint;
   if (material.texture != assets::no_texture) {
