@@ -30,6 +30,8 @@ void add_stage(CLI::App& command, StageOptions& o) {
                      "Folder in which the models that plants.xml names lie (default: the ecosystem file's)");
   command.add_option("--model", o.model,
                      "A species' model: \"Picea abies=spruce.glb\", or =grown, or =none (may be repeated)");
+  command.add_option("--details", o.details,
+                     "Ground detail on the land: a file of details that ghosttile filled (may be repeated)");
   command
       .add_option("--triangles", o.triangles, "Triangles of a grown tree; shrubs and herbs have fewer (default: 40000)")
       ->check(CLI::Range(1000, 2000000));

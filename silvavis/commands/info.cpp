@@ -27,6 +27,12 @@ std::vector<std::uint64_t> counts_of(const scene::PlantLayer& layer) {
   return counts;
 }
 
+std::uint64_t detail_bytes(const scene::Scene& scene) {
+  std::uint64_t sum = 0;
+  for (const scene::DetailLayer& layer : scene.details) sum += layer.instances_bytes();
+  return sum;
+}
+
 struct Counted {
   std::vector<std::vector<std::uint64_t>> plants;  // by layer, by species
   std::size_t model_bytes = 0;
@@ -73,13 +79,24 @@ Json as_json(const Stage& stage, const Path& file, const Counted& counted) {
          {"tiles", {{"columns", layer.columns}, {"rows", layer.rows}, {"side_m", layer.tile_side_m}}},
          {"species", species}});
   }
+  json["details"] = Json::array();
+  for (const scene::DetailLayer& layer : scene.details)
+    json["details"].push_back({{"name", layer.name},
+                               {"instances", layer.count()},
+                               {"candidates", layer.frames.size()},
+                               {"objects", layer.objects},
+                               {"first_object", layer.first_object},
+                               {"first_plant", layer.first_plant},
+                               {"tile_side_m", layer.side_m},
+                               {"bytes", layer.instances_bytes()}});
   json["bytes"] = {{"plants", scene.plant_bytes()},
+                   {"details", detail_bytes(scene)},
                    {"models", counted.model_bytes},
                    {"tracer", stage.tracer->bytes()},
                    {"peak_rss", silvasim::base::peak_rss_bytes()}};
   const Stage::Seconds& t = stage.seconds;
-  json["seconds"] = {
-      {"read", t.read}, {"models", t.models}, {"scene", t.scene}, {"tracer", t.tracer}, {"light", t.light}};
+  json["seconds"] = {{"read", t.read},       {"models", t.models}, {"scene", t.scene},
+                     {"details", t.details}, {"tracer", t.tracer}, {"light", t.light}};
   json["warnings"] = stage.warnings;
   return json;
 }
@@ -113,11 +130,21 @@ void print(const Stage& stage, const Path& file, const Counted& counted) {
       fmt::print("  {:<28} {:>14}  {}\n", printable(own.name), grouped(counted.plants[k][s]), printable(model));
     }
   }
+  for (const scene::DetailLayer& layer : scene.details) {
+    fmt::print("details  {}: {} of {} candidates in tiles of {:g} m, {}\n", printable(layer.name),
+               grouped(layer.count()), grouped(layer.frames.size()), layer.side_m, bytes_text(layer.instances_bytes()));
+    for (std::size_t k = 0; k < layer.objects.size(); ++k) {
+      std::uint64_t count = 0;
+      for (std::uint64_t i = 0; i < layer.count(); ++i) count += layer.frames[layer.chosen[i]].object == k ? 1 : 0;
+      fmt::print("  {:<28} {:>14}\n", printable("detail: " + layer.objects[k]), grouped(count));
+    }
+  }
   const Stage::Seconds& t = stage.seconds;
-  fmt::print("memory   plants {}, models {}, peak {}\n", bytes_text(scene.plant_bytes()),
+  fmt::print("memory   plants {}, {}models {}, peak {}\n", bytes_text(scene.plant_bytes()),
+             scene.details.empty() ? "" : "details " + bytes_text(detail_bytes(scene)) + ", ",
              bytes_text(counted.model_bytes), bytes_text(silvasim::base::peak_rss_bytes()));
-  fmt::print("seconds  read {:.2f}, models {:.2f}, scene {:.2f}, tracer {:.2f}, light {:.2f}\n", t.read, t.models,
-             t.scene, t.tracer, t.light);
+  fmt::print("seconds  read {:.2f}, models {:.2f}, scene {:.2f}, details {:.2f}, tracer {:.2f}, light {:.2f}\n", t.read,
+             t.models, t.scene, t.details, t.tracer, t.light);
 }
 
 }  // namespace

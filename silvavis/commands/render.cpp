@@ -166,6 +166,9 @@ void render(const RenderOptions& options) {
     Json json;
     json["output"] = options.output.string();
     json["plants"] = stage->scene.plants;
+    std::uint64_t details = 0;
+    for (const scene::DetailLayer& layer : stage->scene.details) details += layer.count();
+    json["details"] = details;
     json["models"] = models;
     json["eye"] = place_text(stage->scene, settings.camera.eye);
     json["look_at"] = place_text(stage->scene, settings.camera.look_at);
@@ -177,7 +180,7 @@ void render(const RenderOptions& options) {
     json["bytes"] = {{"plants", stage->scene.plant_bytes()},
                      {"tracer", tracer_bytes},
                      {"peak_rss", silvasim::base::peak_rss_bytes()}};
-    json["seconds"] = {{"read", s.read},     {"models", s.models}, {"scene", s.scene},
+    json["seconds"] = {{"read", s.read},     {"models", s.models}, {"scene", s.scene}, {"details", s.details},
                        {"tracer", s.tracer}, {"light", s.light},   {"render", seconds}};
     json["threads"] = silvasim::base::thread_count();
     json["warnings"] = stage->warnings;

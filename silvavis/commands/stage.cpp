@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "ghosttile/fill/file.h"
 #include "silvasim/base/error.h"
 #include "silvasim/base/words.h"
 #include "silvasim/ecosystem/file.h"
@@ -15,6 +16,7 @@
 #include "silvavis/accel/embree.h"
 #include "silvavis/accel/nested.h"
 #include "silvavis/flora.h"
+#include "silvavis/ground_details.h"
 
 namespace silvavis::commands {
 
@@ -59,6 +61,29 @@ shade::Overhead overhead_of(const Stage& stage, const shade::Land& land) {
   return {stage.scene, *stage.tracer, land, scene_box(stage.scene).greatest_z_m + 10};
 }
 
+// Files that hold the same Ghost Tile have models of their own each: few have more than one.
+void add_details(Stage& stage, const StageOptions& options, std::vector<ghosttile::fill::DetailsFile> files) {
+  DetailOptions how;
+  how.fades = how.levels = options.lod == "auto" && options.backend == "nested";
+  const silvasim::base::Box& land = stage.scene.extent;
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    const std::string name = options.details[k].filename().string();
+    const scene::DetailKind kind = add_detail_kind(stage.scene, *files[k].tile, how);
+    stage.scene.details.push_back(detail_layer(stage.scene, kind, files[k].details, name, how));
+    files[k] = {};
+    const scene::DetailLayer& layer = stage.scene.details.back();
+    if (layer.count() == 0) {
+      stage.warnings.push_back("\"" + options.details[k].string() + "\" holds no details");
+    } else if (layer.most.x < land.west || layer.least.x > land.east || layer.most.y < land.south ||
+               layer.least.y > land.north) {
+      stage.warnings.push_back(fmt::format(
+          "the details of \"{}\" lie outside of the ecosystem: they begin at {:.0f} east, {:.0f} north",
+          options.details[k].string(), layer.least.x + stage.scene.origin.x, layer.least.y + stage.scene.origin.y));
+    }
+  }
+  scene::number_details(stage.scene);
+}
+
 double mean_height(const scene::Ground& ground) {
   double sum = 0;
   for (const float height : ground.heights_m) sum += static_cast<double>(height - ground.pyramid.origin_m);
@@ -85,6 +110,9 @@ std::unique_ptr<Stage> set_stage(const StageOptions& options, const silvasim::ba
   auto mark = std::chrono::steady_clock::now();
   silvasim::ecosystem::Ecosystem ecosystem = silvasim::ecosystem::read(options.ecosystem, progress);
   stage->seconds.read = seconds_since(mark);
+  std::vector<ghosttile::fill::DetailsFile> details;
+  if (options.details.size() > 255) wrong_option("--details was given more than 255 times");
+  for (const Path& file : options.details) details.push_back(ghosttile::fill::read(file));
   const silvasim::fields::FrameReport frame = silvasim::fields::report_frame({ecosystem.crs_wkt, "", ecosystem.extent});
 
   {
@@ -107,6 +135,8 @@ std::unique_ptr<Stage> set_stage(const StageOptions& options, const silvasim::ba
   stage->scene = scene::make_scene(std::move(ecosystem), flora.models);
   stage->scene.seed = options.seed;
   stage->seconds.scene = seconds_since(mark);
+  add_details(*stage, options, std::move(details));
+  stage->seconds.details = seconds_since(mark);
   stage->tracer = options.backend == "embree" ? accel::make_embree(stage->scene) : accel::make_nested(stage->scene);
   stage->seconds.tracer = seconds_since(mark);
 
@@ -140,6 +170,7 @@ std::unique_ptr<Stage> set_stage(const StageOptions& options, const silvasim::ba
 
 std::vector<Path> inputs_of(const StageOptions& options) {
   std::vector<Path> inputs{options.ecosystem};
+  inputs.insert(inputs.end(), options.details.begin(), options.details.end());
   for (const Path& file : files_of(options.land)) inputs.push_back(file);
   return inputs;
 }
@@ -195,6 +226,8 @@ shade::SceneBox scene_box(const scene::Scene& scene) {
     if (!layer.pyramid.levels.empty())
       box.greatest_z_m =
           std::max(box.greatest_z_m, static_cast<double>(layer.pyramid.origin_m + 65535 * layer.pyramid.step_m));
+  for (const scene::DetailLayer& layer : scene.details)
+    if (!layer.nodes.empty()) box.greatest_z_m = std::max(box.greatest_z_m, layer.most.z);
   return box;
 }
 

@@ -28,6 +28,7 @@ struct StageOptions {
   std::vector<std::string> layers;  // only these; empty: all
   std::optional<Path> models;       // folder of the models that plants.xml names; default: the ecosystem file's
   std::vector<std::string> model;   // "Picea abies=spruce.glb", "...=grown", "...=none"
+  std::vector<Path> details;        // files of ground detail (.details)
   int triangles = 40000;
   int variants = 2;
   std::string backend = "nested";     // nested | embree
@@ -58,7 +59,7 @@ struct Stage {
   double longitude_deg = 10, latitude_deg = 50, convergence_deg = 0;
   std::vector<std::string> warnings;
   struct Seconds {
-    double read = 0, models = 0, scene = 0, tracer = 0, light = 0;
+    double read = 0, models = 0, scene = 0, details = 0, tracer = 0, light = 0;
   } seconds;
 };
 
