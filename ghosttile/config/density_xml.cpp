@@ -45,7 +45,7 @@ Node with_falloff(Kind kind, const xml::Node& node) {
 Node primitive(const xml::Node& node, const Surroundings& around, Errors& errors) {
   const std::string& type = node.rule->type;
   const auto at = [&](const std::string& attribute) { return land_place(node, attribute, around, errors); };
-  if (type == "Constant") {
+  if (type == "Everywhere") {
     Node made;
     made.value = static_cast<float>(node.number("value"));
     return made;

@@ -129,7 +129,7 @@ std::vector<ElementRule> primitive_rules() {
   std::vector<xml::AttributeRule> trunks = cover::choice_attributes();
   trunks.push_back(within(attribute("gap", VT::length, "kept free around the stem", "0 m"), 0, 10));
   std::vector<ElementRule> rules = {
-      primitive("Constant", "constant", "The same density everywhere.",
+      primitive("Everywhere", "constant", "The same density everywhere.",
                 {required(within(attribute("value", VT::number, "the density"), 0, 1e6))}, "<constant value=\"0.3\"/>"),
       primitive("Point", "point", "A ball of density around a point.", with_falloff({at("at", "the point")}, "1 m"),
                 "<point at=\"2, 3, 0\" radius=\"1.5 m\"/>"),
@@ -355,7 +355,7 @@ xml::Dialect make() {
 }  // namespace
 
 const std::vector<std::string>& density_types() {
-  static const std::vector<std::string> types = {"Constant", "Point",    "Segment", "Curve",        "Disc",
+  static const std::vector<std::string> types = {"Everywhere", "Point",    "Segment", "Curve",        "Disc",
                                                  "Box",      "Cylinder", "Ball",    "GroundLayer",  "Trunks",
                                                  "Where",    "Blend",    "Union",   "Intersection", "Difference",
                                                  "Multiply", "Scaled",   "Warp",    "Scatter"};
