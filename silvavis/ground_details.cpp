@@ -33,14 +33,15 @@ std::shared_ptr<const scene::PlantModel> packed_detail(const assets::Model& mode
 }
 
 struct Spot {
-  V3d at;           // of a column of tiles: its middle
+  V3d at;           // of a column of tiles: anywhere on the ground there
   float depth = 0;  // DetailColumn::depth in metres squared a metre squared
   Rgb colour{0, 0, 0};
 };
 
 // About so many columns, evenly over all.
-std::vector<Spot> some_columns(const scene::DetailLayer& layer, std::size_t count) {
+std::vector<Spot> some_columns(const scene::Ground& ground, const scene::DetailLayer& layer, std::size_t count) {
   std::vector<Spot> spots;
+  silvasim::base::Stream random(1, silvasim::base::Purpose::picture, 7);
   const std::size_t step = std::max<std::size_t>(1, layer.columns.size() / count);
   const auto list = [&](auto& self, std::uint32_t index, int level, int column, int row) -> void {
     const scene::DetailNode& node = layer.nodes[index];
@@ -55,8 +56,10 @@ std::vector<Spot> some_columns(const scene::DetailLayer& layer, std::size_t coun
       const scene::DetailColumn& own = layer.columns[child];
       const auto k = static_cast<std::size_t>(at);
       Spot spot;
-      spot.at = {layer.corner.x + (x + 0.5) * layer.side_m, layer.corner.y + (y + 0.5) * layer.side_m,
-                 0.5 * static_cast<double>(node.least_m[k] + node.most_m[k])};
+      spot.at.x = layer.corner.x + (x + random.next_double()) * layer.side_m;
+      spot.at.y = layer.corner.y + (y + random.next_double()) * layer.side_m;
+      spot.at.z = std::clamp(scene::ground_at(ground, spot.at.x, spot.at.y).height_m,
+                             static_cast<double>(node.least_m[k]), static_cast<double>(node.most_m[k]));
       spot.depth = static_cast<float>(own.depth) * scene::detail_depth_step;
       for (int c = 0; c < 3; ++c) {
         const float root = static_cast<float>(own.colour[static_cast<std::size_t>(c)]) * (1.0f / 255);
@@ -80,21 +83,40 @@ const Lamp lamps[] = {
     {V3(0.8f, 0.2f, 0.566f), 0.06f}, {V3(-0.7f, 0.5f, 0.51f), 0.06f},      {V3(-0.3f, -0.85f, 0.433f), 0.06f},
     {V3(0.2f, 0.9f, 0.387f), 0.06f}};
 
-// How much of the ground details hide and how bright they are among each other, measured in the layer itself: ground that stands in for
-// them then sends as much light. `probe` holds the layer.
-void match_far_look(scene::Scene& probe) {
+// Light that comes to a surface, by the lamps that no detail bars: on its front, on its back.
+struct Lit {
+  float front = 0, back = 0;
+};
+Lit lit(const scene::Scene& probe, const V3d& at, const V3& normal, const V3& plane, double lift_m) {
+  accel::Ray rays[std::size(lamps)];
+  accel::Hit hits[std::size(lamps)];
+  for (std::size_t k = 0; k < std::size(lamps); ++k) {
+    rays[k].direction = lamps[k].towards.normalized();
+    rays[k].origin = at + V3d(plane) * (plane.dot(rays[k].direction) > 0 ? lift_m : -lift_m);
+  }
+  accel::trace_details(probe, rays, hits);
+  Lit sum;
+  for (std::size_t k = 0; k < std::size(lamps); ++k) {
+    if (hits[k].surface != accel::Surface::none) continue;
+    const float facing = normal.dot(rays[k].direction);
+    (facing > 0 ? sum.front : sum.back) += std::abs(facing) * lamps[k].light;
+  }
+  return sum;
+}
+
+// How much of the ground details hide, how bright they are among each other, and how much they shade what they do not hide,
+// measured in the layer itself: ground that stands in for them then sends as much light. `probe` holds the layer.
+void match_far_look(const scene::Ground& ground, scene::Scene& probe) {
   scene::DetailLayer& layer = probe.details.front();
   if (layer.nodes.empty()) return;
-  const std::vector<Spot> spots = some_columns(layer, 1500);
-  silvasim::base::Stream random(1, silvasim::base::Purpose::picture, 7);
+  const std::vector<Spot> spots = some_columns(ground, layer, 2000);
   std::vector<accel::Ray> rays;
   for (const Spot& spot : spots) {
-    const V3d at = spot.at + V3d(random.next_double() - 0.5, random.next_double() - 0.5, 0) * layer.side_m;
     for (const V3& view : views) {
       accel::Ray ray;
       ray.direction = view.normalized();
-      ray.origin = at - V3d(ray.direction) * 3.0;
-      ray.most = 6;
+      ray.most = 3;  // as far as the ground
+      ray.origin = spot.at - V3d(ray.direction) * ray.most;
       rays.push_back(ray);
     }
   }
@@ -102,30 +124,25 @@ void match_far_look(scene::Scene& probe) {
   accel::trace_details(probe, rays, hits);
 
   const shade::Land plain;
+  const V3 up(0, 0, 1);
   double met = 0;
   Rgb seen(0, 0, 0), flat(0, 0, 0);
-  float level_light = 0;
+  float gaps = 0, free_gaps = 0, level_light = 0;
   for (const Lamp& lamp : lamps) level_light += lamp.light * lamp.towards.normalized().z;
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (hits[i].surface == accel::Surface::none) continue;
+    const Spot& spot = spots[i / std::size(views)];
+    if (hits[i].surface == accel::Surface::none) {
+      gaps += lit(probe, spot.at, up, up, 2e-3).front;
+      free_gaps += level_light;
+      continue;
+    }
     ++met;
     const shade::SurfacePoint point = shade::surface_at(probe, plain, rays[i], hits[i]);
-    std::vector<accel::Ray> shadows;
-    for (const Lamp& lamp : lamps) {
-      accel::Ray ray;
-      ray.direction = lamp.towards.normalized();
-      ray.origin = point.at + V3d(point.plane) * (point.plane.dot(ray.direction) > 0 ? 2e-4 : -2e-4);
-      shadows.push_back(ray);
-    }
-    std::vector<accel::Hit> barred(shadows.size());
-    accel::trace_details(probe, shadows, barred);
-    for (std::size_t k = 0; k < shadows.size(); ++k) {
-      if (barred[k].surface != accel::Surface::none) continue;
-      const float facing = point.normal.dot(shadows[k].direction);
-      seen += (facing > 0 ? point.reflectance : point.transmittance) * (std::abs(facing) * lamps[k].light);
-    }
-    flat += spots[i / std::size(views)].colour * level_light;
+    const Lit own = lit(probe, point.at, point.normal, point.plane, 2e-4);
+    seen += point.reflectance * own.front + point.transmittance * own.back;
+    flat += spot.colour * level_light;
   }
+  layer.gap_light = free_gaps > 0 ? gaps / free_gaps : 1;
   if (met == 0) return;
   for (int c = 0; c < 3; ++c) layer.tint[c] = flat[c] > 0 ? std::clamp(seen[c] / flat[c], 0.1f, 3.0f) : 1.0f;
   // What scale of the depths gives this cover: it grows with the scale.
@@ -163,7 +180,7 @@ scene::DetailLayer detail_layer(const scene::Scene& scene, const scene::DetailKi
   scene::Scene probe;
   probe.models = scene.models;
   probe.details.push_back(std::move(layer));
-  match_far_look(probe);
+  match_far_look(scene.ground, probe);
   return std::move(probe.details.front());
 }
 

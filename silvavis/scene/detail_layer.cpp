@@ -55,6 +55,7 @@ DetailCover detail_cover(const DetailLayer& layer, const V3d& at, float width_m)
   if (!column || at.z < static_cast<double>(least_m) - near_m || at.z > static_cast<double>(most_m) + near_m)
     return cover;
   const float depth = static_cast<float>(column->depth) * detail_depth_step * layer.depth_scale;
+  cover.gap_light = 1 - part * (1 - layer.gap_light);
   cover.share = part * (1 - std::exp(-depth));
   for (int c = 0; c < 3; ++c) {
     const float root = static_cast<float>(column->colour[static_cast<std::size_t>(c)]) * (1.0f / 255);

@@ -97,6 +97,7 @@ struct DetailLayer {
   float most_size_m = 0;          // of DetailFrame::size_m, of those that stand
   float depth_scale = 1;          // cover = 1 - exp(-depth * depth_scale)
   Rgb tint{1, 1, 1};              // what a column's colour is multiplied with, since what stands close shades itself
+  float gap_light = 1;            // of the light that comes to the ground between them
   std::vector<float> part_faded;  // by width in even steps up to most_faded(): share of the cover that is left out
 
   std::uint64_t count() const { return chosen.size() < detail_group ? 0 : chosen.size() - detail_group; }
@@ -129,6 +130,7 @@ std::uint32_t detail_number(const DetailLayer& layer, std::uint32_t slot);
 struct DetailCover {
   float share = 0;  // of the ground that they hide
   Rgb colour{0, 0, 0};
+  float gap_light = 1;  // of the light on the rest
 };
 // At a point of the ground, world space, for a ray of that width.
 DetailCover detail_cover(const DetailLayer& layer, const V3d& at, float width_m);

@@ -65,7 +65,7 @@ SurfacePoint ground_point(const scene::Scene& scene, const Land& land, const acc
     for (const scene::DetailLayer& layer : scene.details) {
       const scene::DetailCover cover =
           scene::detail_cover(layer, point.at, ray.width_m + ray.spread * static_cast<float>(distance_m));
-      point.reflectance = point.reflectance * (1 - cover.share) + cover.colour * cover.share;
+      point.reflectance = point.reflectance * (cover.gap_light * (1 - cover.share)) + cover.colour * cover.share;
     }
   }
   return point;
