@@ -3,6 +3,7 @@
 #include <string>
 
 #include "ghosttile/commands/commands.h"
+#include "ghosttile/export/formats.h"
 #include "silvasim/base/error.h"
 #include "silvasim/base/machine.h"
 #include "silvasim/base/progress.h"
@@ -17,6 +18,7 @@ struct Options {
   FillOptions fill;
   EditOptions edit;
   InfoOptions info;
+  ExportOptions exports;
   HelpOptions help;
 };
 
@@ -65,6 +67,17 @@ void add_edit(CLI::App& app, Options& o) {
   command->callback([&o] { edit(o.edit); });
 }
 
+void add_export(CLI::App& app, Options& o) {
+  CLI::App* command = app.add_subcommand("export", "Write details for other programs");
+  std::string names;
+  for (const auto& format : ghosttile::exports::formats()) names += (names.empty() ? "" : ", ") + format.name;
+  command->add_option("details", o.exports.details, "The file of details")->required();
+  command->add_option("--to", o.exports.format, "The format: " + names + " (default: by the output's extension)");
+  command->add_option("-o,--output", o.exports.output, "The file to write")->required();
+  add_common(*command, o.exports.common);
+  command->callback([&o] { export_details(o.exports); });
+}
+
 void add_rest(CLI::App& app, Options& o) {
   CLI::App* command = app.add_subcommand("info", "Tell what a Ghost Tile or a file of details holds");
   command->add_option("file", o.info.file, "A file .ghost or .details")->required();
@@ -90,6 +103,7 @@ int main(int argc, char** argv) {
   add_create(app, options);
   add_fill(app, options);
   add_edit(app, options);
+  add_export(app, options);
   add_rest(app, options);
   app.footer("ghosttile COMMAND --help tells a command's options.");
   return silvasim::terminal::run("ghosttile", "fill a smaller box", [&] {

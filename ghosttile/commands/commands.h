@@ -44,6 +44,12 @@ struct InfoOptions {
   Path file;
 };
 
+struct ExportOptions {
+  Common common;
+  Path details, output;
+  std::string format;  // "" = by the output's extension
+};
+
 struct HelpOptions {
   std::string element;  // "" = all of them
   bool manual = false;
@@ -53,6 +59,7 @@ void create(const CreateOptions& options);
 void fill(const FillOptions& options);
 void edit(const EditOptions& options);
 void info(const InfoOptions& options);
+void export_details(const ExportOptions& options);
 void schema();
 void help(const HelpOptions& options);
 

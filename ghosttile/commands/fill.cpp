@@ -61,6 +61,7 @@ void fill(const FillOptions& options) {
   file.scene =
       std::filesystem::relative(std::filesystem::absolute(options.scene, ignored), beside, ignored).generic_string();
   file.scene_sha256 = scene.sha256();
+  file.crs_wkt = scene.crs_wkt();
   fill::write(file, output, scene.inputs());
   silvasim::terminal::end_progress(options.common);
   print_warnings(scene.warnings(), options.common);

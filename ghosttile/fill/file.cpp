@@ -102,6 +102,7 @@ std::vector<std::byte> to_bytes(const DetailsFile& file) {
     to.put(std::uint32_t{1});
     to.put_text(file.scene);
     to.put_text(file.scene_sha256);
+    to.put_text(file.crs_wkt);
     put_box(to, file.filled);
   });
   for (NamedChunk& chunk : tile::chunks_of(*file.tile)) chunks.push_back(std::move(chunk));
@@ -126,6 +127,7 @@ DetailsFile file_from(const std::vector<NamedChunk>& chunks, const std::string& 
     meta.fail("it is of version " + std::to_string(version) + "; this program reads version 1");
   file.scene = meta.get_text();
   file.scene_sha256 = meta.get_text();
+  file.crs_wkt = meta.get_text();
   file.filled = get_box(meta);
   meta.expect_end();
   file.tile = std::make_shared<tile::GhostTile>(tile::tile_from(chunks, name));

@@ -32,6 +32,7 @@ struct DetailsFile {
   Details details;
   std::string scene;         // path of the scene's XML, relative to the file of details where that is possible
   std::string scene_sha256;  // of its text and of all that it names
+  std::string crs_wkt;       // of the scene's coordinates; empty: local metres
   TileBox filled;
   std::vector<Edit> edits;
 };
