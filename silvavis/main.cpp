@@ -24,14 +24,23 @@ struct Options {
 };
 
 void add_stage(CLI::App& command, StageOptions& o) {
-  command.add_option("ecosystem", o.ecosystem, "The ecosystem file (.silva)")->required();
+  command
+      .add_option("ecosystem", o.ecosystem,
+                  "The ecosystem file (.silva), or a file of details (.details), which then lie on bare, flat land")
+      ->required();
   command.add_option("--layers", o.layers, "Only these vegetation layers, separated by commas")->delimiter(',');
   command.add_option("--models", o.models,
                      "Folder in which the models that plants.xml names lie (default: the ecosystem file's)");
   command.add_option("--model", o.model,
                      "A species' model: \"Picea abies=spruce.glb\", or =grown, or =none (may be repeated)");
   command.add_option("--details", o.details,
-                     "Ground detail on the land: a file of details that ghosttile filled (may be repeated)");
+                     "Ground detail on the land: a file of details that ghosttile filled, or the XML of a scene of "
+                     "details, which is filled "
+                     "around the eye (may be repeated)");
+  command
+      .add_option("--details-radius", o.details_radius_m,
+                  "Metres around the eye that scenes of details are filled within (default: 40)")
+      ->check(CLI::Range(1.0, 1000.0));
   command
       .add_option("--triangles", o.triangles, "Triangles of a grown tree; shrubs and herbs have fewer (default: 40000)")
       ->check(CLI::Range(1000, 2000000));

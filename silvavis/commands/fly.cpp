@@ -221,8 +221,12 @@ void fly(const FlyOptions& options) {
   std::vector<int> numbers;
   const std::unique_ptr<Stage> stage = set_stage(options.picture.stage, progress, [&](const scene::Scene& bare) {
     path = read_path(options.path, bare, options.height_above_ground_m);
-    part = part_of(options.frames, Flight(path, bare.ground, flight_options(options, path)).frames());
+    const Flight flight(path, bare.ground, flight_options(options, path));
+    part = part_of(options.frames, flight.frames());
     numbers = frames_to_make(options, name, part, write.inputs);
+    std::vector<V3d> eyes;
+    for (const int number : numbers) eyes.push_back(flight.frame(number).eye);
+    return eyes;
   });
   const Flight flight(path, stage->scene.ground, flight_options(options, path));
   Film film(options, *stage, flight,

@@ -128,6 +128,12 @@ std::map<std::string, std::string> metadata_of(const Stage& stage, const shade::
           {"silva:sun", fmt::format("{:.2f},{:.2f}", stage.sun.azimuth_deg, stage.sun.elevation_deg)}};
 }
 
+std::vector<V3d> eyes_of(const RenderOptions& options, const scene::Scene& scene) {
+  const shade::Camera camera = camera_for(options, scene);
+  shade::lens_of(camera);
+  return {camera.eye};
+}
+
 void render(const RenderOptions& options) {
   const Common& common = options.stage.common;
   const silvasim::base::ThreadLimit threads(common.threads);
@@ -139,7 +145,7 @@ void render(const RenderOptions& options) {
   image::check_writable(options.output, write);
   const silvasim::base::Progress progress = silvasim::terminal::console_progress(common);
   const std::unique_ptr<Stage> stage =
-      set_stage(options.stage, progress, [&](const scene::Scene& bare) { shade::lens_of(camera_for(options, bare)); });
+      set_stage(options.stage, progress, [&](const scene::Scene& bare) { return eyes_of(options, bare); });
 
   silvavis::RenderOptions settings = settings_of(options);
   settings.camera = camera_for(options, stage->scene);

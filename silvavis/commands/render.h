@@ -32,6 +32,8 @@ void render(const RenderOptions& options);
 // What can be known of camera_for()'s options without the scene.
 void check_camera(const RenderOptions& options);
 shade::Camera camera_for(const RenderOptions& options, const scene::Scene& scene);
+// The same camera's eye alone, as set_stage() asks for; throws where no picture can be made with it.
+std::vector<V3d> eyes_of(const RenderOptions& options, const scene::Scene& scene);
 // As asked for; else all of the air, and less of it the farther outside of the scene the eye is.
 shade::HazeOptions haze_for(const RenderOptions& options, const Stage& stage, const V3d& eye);
 // Stops for what a camera sees, by the land and not by the sky: image::automatic_exposure() of a small picture.

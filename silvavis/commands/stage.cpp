@@ -15,6 +15,7 @@
 #include "silvasim/fields/field_set.h"
 #include "silvavis/accel/embree.h"
 #include "silvavis/accel/nested.h"
+#include "silvavis/commands/detail_files.h"
 #include "silvavis/flora.h"
 #include "silvavis/ground_details.h"
 
@@ -67,18 +68,20 @@ void add_details(Stage& stage, const StageOptions& options, std::vector<ghosttil
   how.fades = how.levels = options.lod == "auto" && options.backend == "nested";
   const silvasim::base::Box& land = stage.scene.extent;
   for (std::size_t k = 0; k < files.size(); ++k) {
-    const std::string name = options.details[k].filename().string();
+    const Path& file = files.size() > options.details.size() ? (k == 0 ? options.ecosystem : options.details[k - 1])
+                                                             : options.details[k];
+    const std::string name = file.filename().string();
     const scene::DetailKind kind = add_detail_kind(stage.scene, *files[k].tile, how);
     stage.scene.details.push_back(detail_layer(stage.scene, kind, files[k].details, name, how));
     files[k] = {};
     const scene::DetailLayer& layer = stage.scene.details.back();
     if (layer.count() == 0) {
-      stage.warnings.push_back("\"" + options.details[k].string() + "\" holds no details");
+      stage.warnings.push_back("\"" + file.string() + "\" holds no details");
     } else if (layer.most.x < land.west || layer.least.x > land.east || layer.most.y < land.south ||
                layer.least.y > land.north) {
-      stage.warnings.push_back(fmt::format(
-          "the details of \"{}\" lie outside of the ecosystem: they begin at {:.0f} east, {:.0f} north",
-          options.details[k].string(), layer.least.x + stage.scene.origin.x, layer.least.y + stage.scene.origin.y));
+      stage.warnings.push_back(
+          fmt::format("the details of \"{}\" lie outside of the ecosystem: they begin at {:.0f} east, {:.0f} north",
+                      file.string(), layer.least.x + stage.scene.origin.x, layer.least.y + stage.scene.origin.y));
     }
   }
   scene::number_details(stage.scene);
@@ -108,16 +111,21 @@ std::unique_ptr<Stage> set_stage(const StageOptions& options, const silvasim::ba
   flora_options.overrides = overrides(options.model);
   if (options.sun_direction.empty()) moment_of("--sun", options.sun);
   auto mark = std::chrono::steady_clock::now();
-  silvasim::ecosystem::Ecosystem ecosystem = silvasim::ecosystem::read(options.ecosystem, progress);
-  stage->seconds.read = seconds_since(mark);
+  if (options.details.size() > 254) wrong_option("--details was given more than 254 times");
   std::vector<ghosttile::fill::DetailsFile> details;
-  if (options.details.size() > 255) wrong_option("--details was given more than 255 times");
-  for (const Path& file : options.details) details.push_back(ghosttile::fill::read(file));
+  const bool details_alone = options.ecosystem.extension() == ".details";
+  if (details_alone) details.push_back(ghosttile::fill::read(options.ecosystem));
+  silvasim::ecosystem::Ecosystem ecosystem =
+      details_alone ? land_under(details[0]) : silvasim::ecosystem::read(options.ecosystem, progress);
+  stage->seconds.read = seconds_since(mark);
   const silvasim::fields::FrameReport frame = silvasim::fields::report_frame({ecosystem.crs_wkt, "", ecosystem.extent});
 
   {
     const scene::Scene bare = bare_scene(ecosystem);
-    if (judge) judge(bare);
+    std::vector<V3d> eyes = judge ? judge(bare) : std::vector<V3d>();
+    for (V3d& eye : eyes) eye += V3d(bare.origin.x, bare.origin.y, 0);
+    for (const Path& file : options.details)
+      details.push_back(details_of(file, eyes, options.details_radius_m, progress));
     stage->land = land_of(options.land, bare, stage->warnings);
   }
 

@@ -28,7 +28,8 @@ struct StageOptions {
   std::vector<std::string> layers;  // only these; empty: all
   std::optional<Path> models;       // folder of the models that plants.xml names; default: the ecosystem file's
   std::vector<std::string> model;   // "Picea abies=spruce.glb", "...=grown", "...=none"
-  std::vector<Path> details;        // files of ground detail (.details)
+  std::vector<Path> details;        // ground detail: files (.details), or scenes (.xml) to be filled around the eyes
+  double details_radius_m = 40;     // of what is filled around each eye
   int triangles = 40000;
   int variants = 2;
   std::string backend = "nested";     // nested | embree
@@ -68,7 +69,8 @@ shade::Moment moment_of(const char* option, const std::string& text);
 
 // Is shown the scene's frame and ground before anyone waits for models, and throws where a camera or a path does not go with
 // them. There are no layers in the scene yet, and it is gone afterwards.
-using Judge = std::function<void(const scene::Scene& bare)>;
+// Says where the eyes will be, in world space: details are filled around them.
+using Judge = std::function<std::vector<V3d>(const scene::Scene& bare)>;
 
 // Prints warnings to standard error. The stage stays where it is made: its tracer refers to it.
 std::unique_ptr<Stage> set_stage(const StageOptions& options, const silvasim::base::Progress& progress,

@@ -349,8 +349,8 @@ void view(const ViewOptions& options) {
   // With levels in any case, so that L can turn them on.
   StageOptions stage_options = options.picture.stage;
   stage_options.lod = "auto";
-  const std::unique_ptr<Stage> stage = set_stage(
-      stage_options, progress, [&](const scene::Scene& bare) { shade::lens_of(camera_for(options.picture, bare)); });
+  const std::unique_ptr<Stage> stage =
+      set_stage(stage_options, progress, [&](const scene::Scene& bare) { return eyes_of(options.picture, bare); });
   silvasim::terminal::end_progress(common);
   Session session(options, *stage, window, write);
   window.open("silvavis " + stage_options.ecosystem.filename().string(), width, height);
