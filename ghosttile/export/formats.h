@@ -52,7 +52,7 @@ inline constexpr std::uint64_t most_gltf_instances = 200'000;
 void write_gltf(const fill::DetailsFile& file, const std::filesystem::path& path, const WriteOptions& options);
 
 // obj: with <name>.mtl and <name>-<texture>.png beside it; an `o` an instance.
-// ply: binary little endian; the vertices' colours are their material's mean.
+// ply: binary little endian; vertices have their texture's colours, and leaves are not cut out.
 inline constexpr std::uint64_t most_triangles = 50'000'000;
 void write_obj(const fill::DetailsFile& file, const std::filesystem::path& path, const WriteOptions& options);
 void write_ply(const fill::DetailsFile& file, const std::filesystem::path& path, const WriteOptions& options);

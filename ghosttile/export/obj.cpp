@@ -1,6 +1,8 @@
 // Wavefront OBJ: y up, as Blender and most others take it.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "ghosttile/export/formats.h"
 #include "ghosttile/export/groups.h"
 #include "ghosttile/export/side_files.h"
@@ -21,9 +23,11 @@ struct Shared {
   std::uint64_t instances = 0;  // so far
 };
 
+float share(float x) { return std::clamp(x, 0.0f, 1.0f); }
+
 std::string library_entry(const std::string& name, const assets::Material& material, const std::string& texture) {
-  std::string text = fmt::format("newmtl {}\nKd {} {} {}\nKs 0 0 0\nillum 1\n", name, material.reflectance.x,
-                                 material.reflectance.y, material.reflectance.z);
+  std::string text = fmt::format("newmtl {}\nKd {} {} {}\nKs 0 0 0\nillum 1\n", name, share(material.reflectance.x),
+                                 share(material.reflectance.y), share(material.reflectance.z));
   if (texture.empty()) return text + "\n";
   text += "map_Kd " + texture + "\n";
   if (material.alpha_cutoff > 0) text += "map_d " + texture + "\n";

@@ -1,9 +1,6 @@
 // PLY (Turk 1994), binary little endian, z up.
-#include <map>
-
-#include "assets/srgb.h"
-#include "assets/texture.h"
 #include "ghosttile/export/formats.h"
+#include "ghosttile/export/painted.h"
 #include "ghosttile/export/survey.h"
 #include "ghosttile/export/writer.h"
 #include "silvasim/base/words.h"
@@ -11,44 +8,6 @@
 namespace ghosttile::exports {
 
 namespace {
-
-// A model whose vertices bear colours: one that two materials share is there twice.
-struct Painted {
-  struct Vertex {
-    std::uint32_t of_model = 0;
-    std::array<std::uint8_t, 3> rgb{};
-  };
-  std::vector<Vertex> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-};
-
-std::array<std::uint8_t, 3> colour_of(const assets::Model& model, const assets::Material& material) {
-  assets::Rgb colour = material.reflectance;
-  if (material.texture != assets::no_texture) {
-    const auto texture = static_cast<std::size_t>(material.texture);
-    colour *= assets::mean_colour(model.textures[texture], material.alpha_cutoff);
-  }
-  return {assets::byte_of_linear(colour.x), assets::byte_of_linear(colour.y), assets::byte_of_linear(colour.z)};
-}
-
-Painted painted(const assets::Model& model) {
-  std::vector<std::array<std::uint8_t, 3>> colours;
-  for (const assets::Material& material : model.materials) colours.push_back(colour_of(model, material));
-  Painted result;
-  std::map<std::pair<std::uint32_t, std::uint16_t>, std::uint32_t> numbers;
-  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
-    const std::uint16_t material = model.triangle_materials[t];
-    auto& triangle = result.triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t vertex = model.triangles[t][k];
-      const auto next = static_cast<std::uint32_t>(result.vertices.size());
-      const auto [at, is_new] = numbers.try_emplace({vertex, material}, next);
-      if (is_new) result.vertices.push_back({vertex, colours[material]});
-      triangle[k] = at->second;
-    }
-  }
-  return result;
-}
 
 void write_head(Writer& out, const Survey& all, std::uint64_t vertices, const std::string& crs_wkt) {
   out << "ply\nformat binary_little_endian 1.0\n"

@@ -16,15 +16,15 @@ namespace {
 class Ids {
  public:
   explicit Ids(const fill::DetailsFile& file) : box_(file.filled), candidates_(file.tile->candidates.size()) {
-    for (const fill::TilePlace& t : file.details.tiles) {
-      const fill::TileBox one{t.x, t.y, t.z, t.x + 1, t.y + 1, t.z + 1};
-      if (box_.empty()) box_ = one;
-      box_ = {std::min(box_.x0, one.x0), std::min(box_.y0, one.y0), std::min(box_.z0, one.z0),
-              std::max(box_.x1, one.x1), std::max(box_.y1, one.y1), std::max(box_.z1, one.z1)};
+    // Of all that was filled, so that ids stay; where that is too much for 63 bits, as when it has no bounds, of what stands.
+    for (int attempt = 0; attempt < 2; ++attempt) {
+      if (attempt > 0) box_ = {};
+      for (const fill::TilePlace& t : file.details.tiles) take_in(t);
+      const double count =
+          side(box_.x0, box_.x1) * side(box_.y0, box_.y1) * side(box_.z0, box_.z1) * static_cast<double>(candidates_);
+      if (count < 9e18) return;
     }
-    const double count =
-        side(box_.x0, box_.x1) * side(box_.y0, box_.y1) * side(box_.z0, box_.z1) * static_cast<double>(candidates_);
-    if (count > 9e18) throw silvasim::base::Error("the tiles are too far apart for usda's ids; csv holds any");
+    throw silvasim::base::Error("the tiles are too far apart for usda's ids; csv holds any");
   }
   std::int64_t operator()(const fill::Instance& i) const {
     const std::int64_t nx = std::int64_t{box_.x1} - box_.x0, ny = std::int64_t{box_.y1} - box_.y0;
@@ -42,6 +42,12 @@ class Ids {
   }
 
  private:
+  void take_in(const fill::TilePlace& t) {
+    const fill::TileBox one{t.x, t.y, t.z, t.x + 1, t.y + 1, t.z + 1};
+    if (box_.empty()) box_ = one;
+    box_ = {std::min(box_.x0, one.x0), std::min(box_.y0, one.y0), std::min(box_.z0, one.z0),
+            std::max(box_.x1, one.x1), std::max(box_.y1, one.y1), std::max(box_.z1, one.z1)};
+  }
   static double side(int from, int to) { return static_cast<double>(to) - from; }
 
   fill::TileBox box_;

@@ -1,7 +1,6 @@
 // obj, ply and glTF as the project's own readers see them: triangle by triangle where the frames put them.
 #include <cmath>
 #include <cstring>
-#include <map>
 #include <set>
 
 #include "assets/load.h"
@@ -116,51 +115,95 @@ TEST(Obj, NamesItsMaterialsAndKeepsNearCoordinates) {
 }
 
 // sRGB (IEC 61966-2-1), by the C library.
-double linear(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
 double encoded(double light) { return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055; }
 
-TEST(Ply, PaintsVerticesInTheirMaterialsMeanColour) {
-  const fill::DetailsFile file = stand(21);
+using Bytes = std::array<int, 3>;
+
+// Colours of all corners, triangle by triangle.
+std::vector<Bytes> colours_of(const fill::DetailsFile& file) {
   const Folder folder;
   write_ply(file, folder / "a.ply", {});
   const std::string text = text_of(folder / "a.ply");
   const std::size_t begin = text.find("end_header\n") + 11;
   const std::size_t vertices = std::strtoul(text.c_str() + text.find("element vertex ") + 15, nullptr, 10);
-  const std::vector<Triangle> due = triangles_of(file, false);
-  ASSERT_EQ(text.size(), begin + 27 * vertices + 13 * due.size());
-  std::map<const assets::Material*, std::array<double, 3>> wanted;
-  for (std::size_t t = 0; t < due.size(); ++t) {
-    const assets::Material& material = *due[t].material;
-    if (!wanted.contains(&material)) {
-      std::array<double, 3> sum{1, 1, 1};
-      if (material.texture != assets::no_texture) {
-        const assets::Texture& texture = due[t].model->textures[static_cast<std::size_t>(material.texture)];
-        sum = {0, 0, 0};
-        double texels = 0;
-        for (std::size_t i = 0; i < texture.rgba.size(); i += 4) {
-          if (texture.rgba[i + 3] / 255.0 < double{material.alpha_cutoff}) continue;
-          ++texels;
-          for (std::size_t c = 0; c < 3; ++c) sum[c] += linear(texture.rgba[i + c] / 255.0);
-        }
-        for (double& c : sum) c /= texels;
-      }
-      for (std::size_t c = 0; c < 3; ++c)
-        sum[c] = 255 * encoded(sum[c] * static_cast<double>(material.reflectance[static_cast<int>(c)]));
-      wanted[&material] = sum;
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-      std::uint32_t v = 0;
-      std::memcpy(&v, text.data() + begin + 27 * vertices + 13 * t + 1 + 4 * k, 4);
-      ASSERT_LT(v, vertices);
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double byte = static_cast<unsigned char>(text[begin + 27 * v + 24 + c]);
-        ASSERT_NEAR(byte, wanted[&material][c], 0.52) << material.name;
-      }
-    }
+  const std::size_t faces = std::strtoul(text.c_str() + text.find("element face ") + 13, nullptr, 10);
+  EXPECT_EQ(text.size(), begin + 27 * vertices + 13 * faces);
+  std::vector<Bytes> colours;
+  for (std::size_t corner = 0; corner < 3 * faces; ++corner) {
+    std::uint32_t v = 0;
+    std::memcpy(&v, text.data() + begin + 27 * vertices + 13 * (corner / 3) + 1 + 4 * (corner % 3), 4);
+    if (v >= vertices) throw std::runtime_error("a corner without a vertex");
+    const auto byte = [&](std::size_t c) { return int{static_cast<unsigned char>(text[begin + 27 * v + 24 + c])}; };
+    colours.push_back({byte(0), byte(1), byte(2)});
   }
-  EXPECT_GE(wanted.size(), 5u);
+  return colours;
+}
+
+TEST(Ply, PaintsPlainMaterialsInTheirReflectance) {
+  const fill::DetailsFile file = stand(21);
+  const std::vector<Bytes> colours = colours_of(file);
+  const std::vector<Triangle> due = triangles_of(file, false);
+  ASSERT_EQ(colours.size(), 3 * due.size());
+  std::size_t plain = 0;
+  for (std::size_t corner = 0; corner < colours.size(); ++corner) {
+    const assets::Material& material = *due[corner / 3].material;
+    if (material.texture != assets::no_texture) continue;
+    ++plain;
+    for (std::size_t c = 0; c < 3; ++c)
+      ASSERT_NEAR(colours[corner][c], 255 * encoded(double{material.reflectance[static_cast<int>(c)]}), 0.51);
+  }
+  EXPECT_GT(plain, 20u);
+}
+
+// A strip over a picture that is red in the west and blue in the east, with a hole of green between: the hole lends nothing.
+TEST(Ply, PaintsVerticesByTheTextureAroundThem) {
+  assets::Texture texture;
+  texture.width = 60;
+  texture.height = 2;
+  texture.has_alpha = true;
+  for (int i = 0; i < 120; ++i) {
+    const int x = i % 60;
+    const std::array<std::uint8_t, 4> red{200, 0, 0, 255}, green{0, 250, 0, 127}, blue{0, 0, 100, 128};
+    const auto& rgba = x < 18 ? red : x < 42 ? green : blue;
+    texture.rgba.insert(texture.rgba.end(), rgba.begin(), rgba.end());
+  }
+  assets::Model strip;
+  for (const float x : {0.0f, 0.5f, 1.0f})
+    for (const float y : {0.0f, 1.0f}) {
+      strip.positions.emplace_back(x, y, 0.0f);
+      strip.normals.emplace_back(0.0f, 0.0f, 1.0f);
+      strip.uvs.emplace_back(x + 3 - x * 1e-4f, y - 2);  // pictures repeat
+    }
+  strip.triangles = {{0, 2, 1}, {1, 2, 3}, {2, 4, 3}, {3, 4, 5}};
+  strip.triangle_materials = {0, 0, 0, 0};
+  strip.textures = {texture};
+  strip.materials = {{"picture", {1, 1, 0.5f}, {0, 0, 0}, 0, 0.5f}};
+  fill::DetailsFile file = stand(1, 0, 0, 0);
+  auto tile = std::make_shared<tile::GhostTile>();
+  tile->objects = {detail_named("strip", strip)};
+  tile->candidates.resize(1);
+  file.tile = tile;
+  file.details = {{{0, 0, 0}}, {0, 1}, {0}, {1}};
+
+  const std::vector<Bytes> colours = colours_of(file);
+  const int half_blue =
+      static_cast<int>(std::lround(255 * encoded(0.5 * std::pow((100 / 255.0 + 0.055) / 1.055, 2.4))));
+  for (std::size_t corner = 0; corner < colours.size(); ++corner) {
+    const float x = strip.positions[strip.triangles[corner / 3][corner % 3]].x;
+    if (x == 0) {
+      EXPECT_EQ(colours[corner], (Bytes{200, 0, 0}));
+    } else if (x == 1) {
+      EXPECT_EQ(colours[corner], (Bytes{0, 0, half_blue}));
+    }
+    EXPECT_EQ(colours[corner][1], 0);
+  }
+  // Nothing seen at all around a vertex: the mean of what is seen elsewhere.
+  for (V2& uv : strip.uvs) uv = V2(0.5f, 0.5f);
+  tile->objects = {detail_named("strip", strip)};
+  for (const Bytes& colour : colours_of(file)) {
+    EXPECT_NEAR(colour[0], 255 * encoded(0.5 * std::pow((200 / 255.0 + 0.055) / 1.055, 2.4)), 0.51);
+    EXPECT_EQ(colour[1], 0);
+  }
 }
 
 }  // namespace

@@ -117,6 +117,11 @@ TEST(Usda, IdsTellTileAndCandidateAndStayThroughEdits) {
   };
   const std::set<double> before = ids_of(file);
   ASSERT_EQ(before.size(), file.details.count());
+  // A box without bounds is no hindrance.
+  fill::DetailsFile unbounded = file;
+  const int far = 1 << 28;
+  unbounded.filled = {-far, -far, -far, far, far, far};
+  EXPECT_EQ(ids_of(unbounded).size(), before.size());
   // Take the first tile's instances away.
   const std::size_t gone = file.details.instances[0];
   file.details.instances[0] = 0;
