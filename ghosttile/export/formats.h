@@ -8,7 +8,8 @@
 //   before all is written. No instances: a file without any, which is valid.
 // Errors: base::ConfigError for an unknown format; base::Error where a format is no good for so many instances (naming one
 //   that is), where a file cannot be written or is also an input; base::Cancelled.
-// Threads: one. Memory: that of models and textures, whatever the number of instances (gltf: 0.2 kB an instance more).
+// Threads: one. Memory: that of models and textures, whatever the number of instances (gltf: 0.6 kB an instance more).
+// Cost: csv 1 and usda 2 microseconds an instance; obj 0.6 and ply 0.2 microseconds a triangle.
 #pragma once
 
 #include <filesystem>
