@@ -107,6 +107,11 @@ TEST(Obj, NamesItsMaterialsAndKeepsNearCoordinates) {
   }
   for (const char* name : {"canvas__east_", "canvas", "canvas__east__2", "canvas_2"})
     EXPECT_NE(library.find(std::string("newmtl ") + name + "\n"), std::string::npos) << name;
+  // The leaf alone is cut out.
+  const std::size_t cut = library.find("map_d near-leaf.png\n");
+  ASSERT_NE(cut, std::string::npos) << library;
+  EXPECT_EQ(cut, library.find("map_d ")) << library;
+  EXPECT_EQ(library.find("map_d ", cut + 1), std::string::npos) << library;
   // An object an instance, each with a name of its own.
   std::set<std::string> objects;
   for (std::size_t at = text.find("\no "); at != std::string::npos; at = text.find("\no ", at + 1))
