@@ -18,7 +18,8 @@ void put_colour(ByteWriter& to, const assets::Rgb& colour) {
 assets::Rgb get_colour(ByteReader& from) {
   const V3 v = get_vector(from);
   for (int c = 0; c < 3; ++c)
-    if (!(v[c] >= 0 && v[c] <= 1)) from.fail("a colour lies outside of 0 to 1");
+    // A factor to a texture may be above 1.
+    if (!(v[c] >= 0 && v[c] <= 1000)) from.fail("a colour is below 0 or far above 1");
   return {v.x, v.y, v.z};
 }
 

@@ -24,7 +24,8 @@ float cells(double x, double y, double size_m, double width_m, float tones, floa
   return there * (tones * (one.tone - 0.5f) + gaps * (one.inside - mean_inside));
 }
 
-// Long and thin, every way: each tuft leans to a side of its own.
+// Long and thin: in each tuft another way. One way a tuft, because turning a place by an angle that varies would squeeze the blades the
+// more the farther the place is from the scene's origin.
 float blades(double x, double y, double width_m) {
   constexpr double wide_m = 0.025, long_m = 0.28, tuft_m = 0.4;
   const float there = shown(1.5 * wide_m, width_m);
@@ -32,7 +33,7 @@ float blades(double x, double y, double width_m) {
   float sum = 0;
   for (int layer = 0; layer < 2; ++layer) {
     const double shift = 37.7 * layer;
-    const float turn = 9 * lumps(x + shift, y - shift, tuft_m), c = std::cos(turn), s = std::sin(turn);
+    const float turn = 6.2831853f * flake(x + shift, y - shift, tuft_m).tone, c = std::cos(turn), s = std::sin(turn);
     const double u = static_cast<double>(c) * x + static_cast<double>(s) * y,
                  v = static_cast<double>(c) * y - static_cast<double>(s) * x;
     sum += lumps(u * (wide_m / long_m) + shift, v, wide_m) - 0.5f;
