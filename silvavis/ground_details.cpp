@@ -177,6 +177,12 @@ scene::DetailLayer detail_layer(const scene::Scene& scene, const scene::DetailKi
   scene::DetailLayer layer = scene::make_detail_layer(kind, details, scene.origin, name);
   if (!options.fades) return layer;
   layer.fades = true;
+  if (options.like) {
+    layer.depth_scale = options.like->depth_scale;
+    layer.tint = options.like->tint;
+    layer.gap_light = options.like->gap_light;
+    return layer;
+  }
   scene::Scene probe;
   probe.models = scene.models;
   probe.details.push_back(std::move(layer));

@@ -15,6 +15,8 @@ namespace silvavis {
 struct DetailOptions {
   bool fades = true;   // what is smaller than half a pixel is left out, and the ground takes its colour
   bool levels = true;  // simpler models of what has many leaves
+  // A layer of the same kind to look like from afar, instead of measuring it: for layers that are made again and again.
+  const scene::DetailLayer* like = nullptr;
 };
 
 // Adds the models to the scene.
