@@ -4,7 +4,7 @@
 //   a box each, then the candidates' own boxes, then the object's model by the candidate's frame. An instance is two bytes and its share of
 //   a group's box; all that can be asked of it is its candidate's.
 // Units: metres. Tile (x, y, z) is the cube from (x, y, z) * side in scene coordinates; world space is the scene's.
-// Memory: 2.4 bytes an instance, 16 a tile, 17 a column of tiles.
+// Memory: 2.4 bytes an instance, 16 a tile, 17 a column of tiles: 2.7 of all that an instance where 120 share a tile, 3.5 where 30 do.
 // Source: Guérin et al. 2016, section 3 (instances as lists of indexes).
 #pragma once
 
