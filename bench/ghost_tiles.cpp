@@ -52,7 +52,7 @@ std::uint64_t pairs_at(const config::TileXml& loaded, float delta_m) {
 
 // The threshold at which as many pairs collide.
 float delta_for(const config::TileXml& loaded, double pairs) {
-  float low = -0.3f, high = 0.4f;
+  float low = -0.3f, high = 0.7f;
   for (int step = 0; step < 14; ++step) {
     const float middle = (low + high) / 2;
     (static_cast<double>(pairs_at(loaded, middle)) < pairs ? low : high) = middle;

@@ -118,20 +118,21 @@ class Selecting {
     const TilePlace& place = s_.index.place(slot);
     std::uint64_t* alive = s_.alive.data() + std::size_t{slot} * s_.words;
     const auto possible = [&](std::uint16_t c) { return alive[c / 64] >> (c % 64) & 1; };
-    std::array<std::uint16_t, 64> left;
+    struct Turn {
+      std::uint64_t chance;
+      std::uint16_t candidate;
+    };
+    std::array<Turn, 64> left;
+    const std::uint64_t chance = tile_hash(seed_, place);
     std::uint32_t from = 0;
     while (from < run.count) {
       std::size_t count = 0;
       for (; from < run.count && count < left.size(); ++from)
-        if (possible(candidates[from])) left[count++] = candidates[from];
-      if (count > 1) {
-        const std::uint64_t chance = tile_hash(seed_, place);
-        std::sort(
-            left.begin(), left.begin() + static_cast<std::ptrdiff_t>(count),
-            [&](std::uint16_t a, std::uint16_t b) { return candidate_hash(chance, a) < candidate_hash(chance, b); });
-      }
+        if (possible(candidates[from])) left[count++] = {candidate_hash(chance, candidates[from]), candidates[from]};
+      std::sort(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(count),
+                [](const Turn& a, const Turn& b) { return a.chance < b.chance; });
       for (std::size_t c = 0; c < count; ++c)
-        if (possible(left[c])) choose(slot, place, left[c]);
+        if (possible(left[c].candidate)) choose(slot, place, left[c].candidate);
     }
     done_[slot] = static_cast<std::uint16_t>(done_[slot] + run.count);
     ++next_run_[slot];

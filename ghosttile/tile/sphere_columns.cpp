@@ -50,28 +50,31 @@ std::vector<Sphere> clustered(std::vector<Sphere> spheres) {
   return sorted;
 }
 
-bool apart(const SphereColumns::Bound& a, const SphereColumns::Bound& b, const V3& shift, float delta_m) {
+[[gnu::always_inline]] inline bool apart(const SphereColumns::Bound& a, const SphereColumns::Bound& b, const V3& shift,
+                                         float delta_m) {
   const float x = b.centre.x + shift.x - a.centre.x, y = b.centre.y + shift.y - a.centre.y,
               z = b.centre.z + shift.z - a.centre.z;
   const float sum = a.radius + b.radius + delta_m + 1e-6f;
   return sum < 0 || x * x + y * y + z * z > sum * sum * (1 + 1e-5f);
 }
 
-bool clusters_collide(const SphereColumns::Cluster& a, const SphereColumns::Cluster& b, const V3& shift,
-                      float delta_m) {
+[[gnu::always_inline]] inline bool clusters_collide(const SphereColumns::Cluster& a, const SphereColumns::Cluster& b,
+                                                    const V3& shift, float delta_m) {
+  // All 64 pairs, and one look at what came out: a branch a sphere would cost more than it saves.
+  std::array<int, SphereColumns::cluster_size> hits{};
   for (std::size_t s = 0; s < SphereColumns::cluster_size; ++s) {
     const float x = a.x[s] - shift.x, y = a.y[s] - shift.y, z = a.z[s] - shift.z, radius = a.radius[s] + delta_m;
-    int hits = 0;
     for (std::size_t t = 0; t < SphereColumns::cluster_size; ++t) {
       const float dx = b.x[t] - x, dy = b.y[t] - y, dz = b.z[t] - z, sum = radius + b.radius[t];
-      hits |= static_cast<int>(dx * dx + dy * dy + dz * dz <= sum * sum) & static_cast<int>(sum >= 0);
+      hits[t] |= static_cast<int>(dx * dx + dy * dy + dz * dz <= sum * sum) & static_cast<int>(sum >= 0);
     }
-    if (hits) return true;
   }
-  return false;
+  int any = 0;
+  for (const int hit : hits) any |= hit;
+  return any != 0;
 }
 
-// In a free function, so that it is compiled for wider registers too.
+// What it calls must be inline, so that it is compiled for wider registers too.
 SILVA_VECTOR_CLONES
 bool candidates_collide(const SphereColumns& columns, std::uint32_t i, std::uint32_t j, const V3& shift,
                         float delta_m) {
