@@ -102,7 +102,10 @@ Surroundings Scene::around(const density::Box3& region) const {
   const std::vector<double> origin = numbers(root, "origin", 2, 2, errors);
   if (!errors.empty()) throw ConfigError(std::move(errors));
   around.origin = {origin[0], origin[1], 0};
-  around.region = region;
+  // Filling works on a margin around what is asked for, and candidates stick out of their tiles.
+  const double margin_m = 32 * static_cast<double>(tile_->side_m) + 2 * static_cast<double>(tile::reach_of(*tile_));
+  around.region = {region.least - density::V3d(margin_m, margin_m, margin_m),
+                   region.most + density::V3d(margin_m, margin_m, margin_m)};
   return around;
 }
 

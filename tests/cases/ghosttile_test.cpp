@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <set>
+#include <sstream>
 
 #include "program.h"
 
@@ -127,6 +129,31 @@ TEST(GhosttileDialect, ManualAndSchemaAreUpToDate) {
       << "run: ghosttile schema > configs/ghosttile.xsd";
   EXPECT_EQ(read(source("docs/ghosttile-dialect.md")), ghosttile({"help", "--manual"}).out)
       << "run: ghosttile help --manual > docs/ghosttile-dialect.md";
+}
+
+// With an ecosystem: rules, the ground, and stems, of which some stand just outside of the part.
+TEST(DetailsExamples, APartOfTheValleyIsFilledAsALargerPart) {
+  const Folder folder;
+  ASSERT_EQ(silvasim({"run", source("configs/demo/ecosystem.xml"), "-o", folder / "valley.silva", "-q"}).code, 0);
+  std::string text = read(source("configs/details/scenes/undergrowth.xml"));
+  const std::string valley = "../../../build/demo/valley.silva";
+  text.replace(text.find(valley), valley.size(), folder / "valley.silva");
+  text.replace(text.find("../tiles/"), 9, source("configs/details/tiles/"));
+  write(folder / "scene.xml", text);
+  const auto rows = [&](const std::string& radius) {
+    EXPECT_EQ(ghosttile({"fill", folder / "scene.xml", "--around", "571994,5726494", "--radius", radius, "-o",
+                         folder / "x.details", "-q"})
+                  .code,
+              0);
+    EXPECT_EQ(ghosttile({"export", folder / "x.details", "-o", folder / "x.csv", "-q"}).code, 0);
+    std::set<std::string> all;
+    std::istringstream lines(read(folder / "x.csv"));
+    for (std::string line; std::getline(lines, line);) all.insert(line);
+    return all;
+  };
+  const std::set<std::string> part = rows("3"), whole = rows("9");
+  ASSERT_GT(part.size(), 500u);
+  for (const std::string& row : part) ASSERT_TRUE(whole.contains(row)) << row;
 }
 
 // Every example is right by the schema and can be filled; the one that needs the demo valley gets it grown.
