@@ -52,7 +52,7 @@ void fill(const FillOptions& options) {
   const fill::Plan plan = scene.plan(region);
   fill::DetailsFile file;
   file.tile = scene.tile();
-  file.filled = fill::intersection(fill::tiles_within(plan, region), fill::tiles_of(plan));
+  file.filled = fill::tiles_within(plan, region);
   fill::FillCounts counts;
   file.details = fill::fill(plan, file.filled, progress, &counts);
   const Path output = options.output.value_or(options.scene.stem().string() + ".details");

@@ -200,7 +200,7 @@ std::vector<ElementRule> operator_rules() {
            "Copies of what it holds, at chance places of a rectangle, turned anyhow; heights are above the ground "
            "there.",
            {required(attribute("box", VT::text, "\"west, south, east, north\" in metres")),
-            required(within(attribute("count", VT::integer, "how many"), 1, 100000)),
+            required(within(attribute("count", VT::integer, "how many"), 1, 10000)),
             within(attribute("apart", VT::length, "least distance between two", "0 m"), 0), seed("of the places")},
            "<scatter box=\"0, 0, 40, 40\" count=\"12\" apart=\"5 m\"><cylinder from=\"0,0,0\" to=\"0,0,1.5\" size=\"80 "
            "cm\"/></scatter>"),
@@ -356,9 +356,9 @@ xml::Dialect make() {
 
 const std::vector<std::string>& density_types() {
   static const std::vector<std::string> types = {"Everywhere", "Point",    "Segment", "Curve",        "Disc",
-                                                 "Box",      "Cylinder", "Ball",    "GroundLayer",  "Trunks",
-                                                 "Where",    "Blend",    "Union",   "Intersection", "Difference",
-                                                 "Multiply", "Scaled",   "Warp",    "Scatter"};
+                                                 "Box",        "Cylinder", "Ball",    "GroundLayer",  "Trunks",
+                                                 "Where",      "Blend",    "Union",   "Intersection", "Difference",
+                                                 "Multiply",   "Scaled",   "Warp",    "Scatter"};
   return types;
 }
 

@@ -31,7 +31,7 @@ class Scene {
   const silvasim::base::Box& land() const { return land_box_; }
   const std::vector<std::filesystem::path>& inputs() const { return inputs_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
-  // Of the XML and of all files that it names.
+  // Of the XML and of the files that it names itself; not of rasters that the fields' XML names.
   const std::string& sha256() const { return sha256_; }
   std::string crs_wkt() const;
 

@@ -1,9 +1,13 @@
 #include "ghosttile/fill/edit.h"
 
+#include "silvasim/base/error.h"
+
 namespace ghosttile::fill {
 
 void edit(const Plan& plan, DetailsFile& file, const TileBox& touched, const std::string& strokes_xml,
           const silvasim::base::Progress& progress) {
+  if (file.edits.size() >= most_edits)
+    throw silvasim::base::Error("there are " + std::to_string(most_edits) + " edits already: fill the scene again");
   Details after = refill(plan, file.details, touched, progress);
   file.edits.push_back({strokes_xml, touched, part_of(file.details, touched)});
   file.details = std::move(after);

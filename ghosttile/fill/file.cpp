@@ -1,5 +1,7 @@
 #include "ghosttile/fill/file.h"
 
+#include <algorithm>
+
 #include "ghosttile/fill/select.h"
 #include "silvasim/base/error.h"
 
@@ -13,14 +15,16 @@ using tile::NamedChunk;
 
 constexpr tile::ChunkType placed_type{'D', 'P', 'L', 'C'};
 constexpr tile::ChunkType edits_type{'D', 'E', 'D', 'T'};
-constexpr std::uint32_t most_edits = 100'000;
 
 void put_box(ByteWriter& to, const TileBox& box) {
   for (const int v : {box.x0, box.y0, box.z0, box.x1, box.y1, box.z1}) to.put(static_cast<std::int32_t>(v));
 }
 TileBox get_box(ByteReader& from) {
   TileBox box;
-  for (int* v : {&box.x0, &box.y0, &box.z0, &box.x1, &box.y1, &box.z1}) *v = from.get<std::int32_t>();
+  for (int* v : {&box.x0, &box.y0, &box.z0, &box.x1, &box.y1, &box.z1}) {
+    *v = from.get<std::int32_t>();
+    if (*v < -2 * farthest_tile || *v > 2 * farthest_tile) from.fail("a box reaches too far");
+  }
   return box;
 }
 
@@ -51,7 +55,12 @@ Details get_details(ByteReader& from, std::uint32_t candidates) {
     if (t > 0 && !(details.tiles[t - 1] < details.tiles[t])) from.fail("its tiles are out of order");
   }
   details.first.push_back(0);
-  for (std::size_t t = 0; t < tiles; ++t) details.first.push_back(details.first.back() + from.get<std::uint16_t>());
+  std::uint64_t sum = 0;
+  for (std::size_t t = 0; t < tiles; ++t) {
+    sum += from.get<std::uint16_t>();
+    if (sum > 0xFFFFFFFFu) from.fail("its tiles hold too many candidates");
+    details.first.push_back(static_cast<std::uint32_t>(sum));
+  }
   for (std::size_t t = 0; t < tiles; ++t) {
     details.instances.push_back(from.get<std::uint16_t>());
     if (details.instances.back() > details.first[t + 1] - details.first[t])
@@ -68,8 +77,28 @@ Details get_details(ByteReader& from, std::uint32_t candidates) {
     const std::uint32_t middle = details.first[t] + details.instances[t];
     for (std::uint32_t c = details.first[t] + 1; c < details.first[t + 1]; ++c)
       if (c != middle && details.chosen[c] <= details.chosen[c - 1]) from.fail("a tile's candidates are out of order");
+    for (const std::uint16_t refused : details.refused_of(t))
+      if (std::ranges::binary_search(details.of(t), refused)) from.fail("a candidate stands and is refused at once");
   }
   return details;
+}
+
+// Numbering tiles takes memory by how far they lie apart: no file may ask for much more than its own size.
+std::string problem_with(const std::vector<TilePlace>& tiles) {
+  if (tiles.empty()) return {};
+  int west = tiles[0].x, east = tiles[0].x;
+  std::uint64_t between = 0;
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    west = std::min(west, tiles[t].x);
+    east = std::max(east, tiles[t].x);
+    if (t > 0 && tiles[t].x == tiles[t - 1].x && tiles[t].y == tiles[t - 1].y)
+      between += static_cast<std::uint64_t>(tiles[t].z - tiles[t - 1].z);
+  }
+  const double columns =
+      (static_cast<double>(east) - west + 16) / 16 * ((static_cast<double>(tiles.back().y) - tiles[0].y + 16) / 16);
+  if (columns > 0x1p25 + 16.0 * static_cast<double>(tiles.size())) return "its tiles lie too far apart";
+  if (between > 1'000'000 + 16 * tiles.size()) return "its tiles lie too high above each other";
+  return {};
 }
 
 // Whether any two of what stands collide: each takes away what it collides with, and must still be there itself.
@@ -135,6 +164,7 @@ DetailsFile file_from(const std::vector<NamedChunk>& chunks, const std::string& 
   ByteReader placed = tile::reader_of(chunks, placed_type, name);
   file.details = get_details(placed, candidates);
   placed.expect_end();
+  if (const std::string problem = problem_with(file.details.tiles); !problem.empty()) placed.fail(problem);
   if (collides(file.tile->graph, file.details)) placed.fail("two of its instances collide");
   ByteReader edits = tile::reader_of(chunks, edits_type, name);
   const std::uint32_t count = edits.get_count(36);

@@ -26,6 +26,7 @@ struct Edit {
 
   friend bool operator==(const Edit&, const Edit&) = default;
 };
+inline constexpr std::size_t most_edits = 100'000;
 
 struct DetailsFile {
   std::shared_ptr<const tile::GhostTile> tile;

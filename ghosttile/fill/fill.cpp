@@ -18,6 +18,9 @@ constexpr int first_margin = 4;  // tiles; usually enough
 void check_size(const TileBox& box) {
   const auto along = [](int from, int to) { return static_cast<double>(to) - static_cast<double>(from); };
   const double columns = along(box.x0, box.x1) * along(box.y0, box.y1);
+  if (box.z0 <= -farthest_tile || box.z1 > farthest_tile)
+    throw silvasim::base::Error(
+        "the details reach up or down without end: put a <layer> or another shape with bounds into each <fill>");
   if (columns > static_cast<double>(most_tiles))
     throw silvasim::base::Error(
         "the details have no bounds, or too wide ones: say where to fill, with --bbox or --around");
@@ -47,6 +50,8 @@ Details gather(const Plan& plan, const Survivors& survivors, Selection selection
     details.instances.push_back(static_cast<std::uint16_t>(instances));
     details.first.push_back(static_cast<std::uint32_t>(details.chosen.size()));
   }
+  if (details.chosen.size() > 0xFFFFFFFFu)
+    throw silvasim::base::Error("more than four thousand million instances: fill a smaller box");
   details.tiles.shrink_to_fit();
   details.first.shrink_to_fit();
   details.chosen.shrink_to_fit();

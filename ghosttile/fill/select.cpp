@@ -1,7 +1,6 @@
 #include "ghosttile/fill/select.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <numeric>
 
@@ -122,18 +121,15 @@ class Selecting {
       std::uint64_t chance;
       std::uint16_t candidate;
     };
-    std::array<Turn, 64> left;
+    // All at once: an order that is made piece by piece would depend on who is still possible.
+    thread_local std::vector<Turn> left;
+    left.clear();
     const std::uint64_t chance = tile_hash(seed_, place);
-    std::uint32_t from = 0;
-    while (from < run.count) {
-      std::size_t count = 0;
-      for (; from < run.count && count < left.size(); ++from)
-        if (possible(candidates[from])) left[count++] = {candidate_hash(chance, candidates[from]), candidates[from]};
-      std::sort(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(count),
-                [](const Turn& a, const Turn& b) { return a.chance < b.chance; });
-      for (std::size_t c = 0; c < count; ++c)
-        if (possible(left[c].candidate)) choose(slot, place, left[c].candidate);
-    }
+    for (std::uint32_t k = 0; k < run.count; ++k)
+      if (possible(candidates[k])) left.push_back({candidate_hash(chance, candidates[k]), candidates[k]});
+    std::sort(left.begin(), left.end(), [](const Turn& a, const Turn& b) { return a.chance < b.chance; });
+    for (const Turn& turn : left)
+      if (possible(turn.candidate)) choose(slot, place, turn.candidate);
     done_[slot] = static_cast<std::uint16_t>(done_[slot] + run.count);
     ++next_run_[slot];
   }

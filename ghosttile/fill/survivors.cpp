@@ -17,7 +17,7 @@ namespace {
 constexpr int chunk_tiles = 64;        // a piece of work: so many columns along each side
 constexpr int levels_a_tile = 8;       // of elevation
 constexpr int levels_of_density = 16;  // of distance to the boundary
-constexpr int stages_a_level = 8;
+constexpr int stages_a_level = 24;     // one to a doubling: about one instance a tile
 constexpr int most_stages = 65535;
 
 // A tile's survivors before they have a slot.
@@ -194,7 +194,7 @@ class Culling {
     const std::int32_t level =
         plan_.priority == Priority::elevation
             ? static_cast<std::int32_t>(std::floor(height_m * (static_cast<float>(levels_a_tile) / tile_.side_m)))
-            : std::min(static_cast<std::int32_t>(density * levels_of_density), levels_of_density - 1);
+            : static_cast<std::int32_t>(std::min(density, 0.999f) * levels_of_density);
     return level * stages_a_level + std::min(quarters / 4, stages_a_level - 1);
   }
 
@@ -278,6 +278,10 @@ Survivors joined(std::vector<Chunk> chunks, std::uint32_t candidates) {
       survivors.first[slot + 1] = static_cast<std::uint32_t>(tile.count);
     }
   }
+  std::uint64_t all = 0;
+  for (const std::uint32_t count : survivors.first) all += count;
+  if (all > 0xFFFFFFFFu)
+    throw silvasim::base::Error("more than four thousand million candidates are possible at once: fill a smaller box");
   for (std::uint32_t s = 0; s < slots; ++s) {
     survivors.first_run[s + 1] += survivors.first_run[s];
     survivors.first[s + 1] += survivors.first[s];

@@ -94,6 +94,8 @@ std::vector<V3> anchors_of(const assets::Model& model, const AnchorOptions& opti
       return {foot_of(model)};
     case AnchorPlaces::given:
       if (options.given.empty()) fail("has no anchor; give one point at least");
+      if (options.given.size() > static_cast<std::size_t>(most_anchors))
+        fail("has more than " + std::to_string(most_anchors) + " anchors");
       for (const V3& p : options.given) {
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
           fail("has an anchor whose place is not a finite number");

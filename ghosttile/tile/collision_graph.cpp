@@ -20,8 +20,10 @@ std::string CollisionGraph::problem() const {
   if (first_word.size() != std::size_t{candidates} + 1 || first_word.front() != 0 ||
       first_word.back() != places.size() || places.size() != bits.size())
     return "its columns do not fit each other";
+  if (places_of_all > 65536) return "it has more candidates than it can name";
   for (std::uint32_t i = 0; i < candidates; ++i) {
-    if (first_word[i] > first_word[i + 1]) return "the words of a candidate end before they begin";
+    if (first_word[i] > first_word[i + 1] || first_word[i + 1] > places.size())
+      return "the words of a candidate end before they begin";
     for (std::uint32_t w = first_word[i]; w < first_word[i + 1]; ++w) {
       if (places[w] >= places_of_all || bits[w] == 0 || (w > first_word[i] && places[w] <= places[w - 1]))
         return "a word has no place, no bit, or stands out of order";

@@ -39,13 +39,13 @@ int offsets_reach(const GhostTile& tile) {
   for (const Candidate& candidate : tile.candidates)
     most = std::max(most, candidate.scale * objects::reach_of(tile.objects[candidate.object].spheres));
   const float between = 2 * most + tile.delta_m;
-  const int reach = std::max(1, static_cast<int>(std::floor(std::max(0.0f, between) / tile.side_m)) + 1);
-  if (reach > most_reach)
+  const bool too_far = !(between / tile.side_m < static_cast<float>(most_reach));
+  if (too_far)
     throw Error("the tile of " + std::to_string(tile.side_m) + " m is too small for its objects: they reach " +
                 std::to_string(most) + " m from their origins; a side of " +
                 std::to_string(between / static_cast<float>(most_reach)) +
                 " m would be enough, twice the reach is usual");
-  return reach;
+  return std::max(1, static_cast<int>(std::floor(std::max(0.0f, between) / tile.side_m)) + 1);
 }
 
 // Candidates by the cell of a grid that their bounding spheres' centres lie in, the tile repeated in all directions.
@@ -175,6 +175,9 @@ GhostTile create(std::vector<objects::Detail> objects, const CreateOptions& opti
   tile.delta_m = options.delta_m;
   tile.seed = options.seed;
   tile.objects = std::move(objects);
+  std::uint64_t wanted = 0;
+  for (const Spread& spread : options.spreads) wanted += spread.count;
+  if (wanted > 65535) throw Error("the tile has " + std::to_string(wanted) + " candidates in all; 65535 are the most");
   tile.candidates = spread_candidates(options);
   if (tile.candidates.empty()) throw Error("the tile has no candidates: give its objects a count above 0");
   const int reach = offsets_reach(tile);

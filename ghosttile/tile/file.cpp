@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "ghosttile/objects/anchors.h"
 #include "ghosttile/tile/create.h"
 #include "ghosttile/tile/model_bytes.h"
 
@@ -35,6 +36,8 @@ void get_spheres(ByteReader& from, objects::Detail& object) {
   }
   object.error = {from.get<float>(), from.get<float>(), from.get<float>()};
   object.anchors.resize(from.get_count(12));
+  if (object.anchors.size() > objects::most_anchors)
+    from.fail("an object has more than " + std::to_string(objects::most_anchors) + " anchors");
   for (V3& anchor : object.anchors) anchor = get_vector(from);
   if (object.spheres.empty() || object.anchors.empty()) from.fail("an object has no sphere or no anchor");
 }

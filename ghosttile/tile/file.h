@@ -1,6 +1,7 @@
 // The Ghost Tile's file (`.ghost`): objects with their models, spheres and anchors, candidates, collision graph.
 //
-// Promise: read(write(t)) is t; what is read keeps every promise of ghost_tile.h and its parts, whatever the bytes were.
+// Promise: read(write(t)) is t; what is read is safe to work with, whatever the bytes were: indices in range, numbers finite, the graph
+//   symmetric. That the graph is complete is taken on trust: it is not worked out again.
 // Errors: base::Error naming the file, the chunk, the byte, and what is wrong.
 // docs/ghost-tiles.md describes the chunks.
 #pragma once

@@ -61,12 +61,12 @@ fill::DetailsFile details_of(const std::filesystem::path& file, const std::vecto
     filled.details = fill::fill(plan, fill::tiles_within(plan, region), progress);
     return filled;
   }
-  // Square by square: an eye that is near the last one's adds little.
+  // Square by square, each wide enough for the eyes that are near this one.
   const V3d* last = nullptr;
   for (const V3d& eye : eyes) {
     if (last && std::hypot(eye.x - last->x, eye.y - last->y) < radius_m / 4) continue;
     last = &eye;
-    const fill::TileBox box = fill::tiles_within(plan, box_around(eye, radius_m));
+    const fill::TileBox box = fill::tiles_within(plan, box_around(eye, 1.25 * radius_m));
     filled.details = fill::joined(filled.details, fill::fill(plan, box, progress), box);
   }
   return filled;

@@ -67,6 +67,23 @@ TEST_F(Details, GoFromXmlToFilledLandEditedAndBack) {
   EXPECT_THAT(nothing.err, HasSubstr("there is no edit to undo"));
 }
 
+// A heap is put where nothing was: beyond the layer's own tiles; and the copy knows its scene.
+TEST_F(Details, EditsReachBeyondWhatTheSceneFilledAndOutputsKeepTheirScene) {
+  ASSERT_EQ(fill({}, "a.details").code, 0);
+  write(folder_ / "heap.xml", "<strokes><add object=\"stone\"><sphere at=\"0,0,1\" size=\"80 cm\"/></add></strokes>");
+  std::filesystem::create_directory(folder_.path() / "below");
+  const Outcome edited = ghosttile(
+      {"edit", folder_ / "a.details", folder_ / "heap.xml", "-o", folder_ / "below/b.details", "--json", "-q"});
+  ASSERT_EQ(edited.code, 0) << edited.err;
+  EXPECT_GT(edited.json()["instances"].get<int>(), edited.json()["instances_before"].get<int>() + 100);
+  const Outcome again = ghosttile({"edit", folder_ / "below/b.details", folder_ / "heap.xml", "-q"});
+  EXPECT_EQ(again.code, 0) << again.err;
+  const Outcome over =
+      ghosttile({"edit", folder_ / "a.details", folder_ / "heap.xml", "-o", folder_ / "heap.xml", "-q"});
+  EXPECT_EQ(over.code, 1);
+  EXPECT_THAT(read(folder_ / "heap.xml"), HasSubstr("<strokes>"));
+}
+
 TEST_F(Details, AreTheSameBytesOnAnyNumberOfThreadsAndFromTheTilesOwnFile) {
   ASSERT_EQ(fill({"--threads", "1"}, "one.details").code, 0);
   ASSERT_EQ(fill({"--threads", "3"}, "three.details").code, 0);

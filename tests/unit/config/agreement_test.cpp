@@ -25,8 +25,9 @@ class Examples {
     fs::copy(fs::path(SILVA_SOURCE_DIR) / "configs", folder_ / "configs", fs::copy_options::recursive);
     fs::create_directory_symlink(fs::path(SILVA_SOURCE_DIR) / "data", folder_ / "data");
     for (const auto& entry : fs::recursive_directory_iterator(folder_ / "configs")) {
-      // Cameras are silvavis's, in a language of their own.
-      if (entry.path().extension() == ".xml" && entry.path().filename() != "cameras.xml")
+      // Cameras are silvavis's and details ghosttile's, in languages of their own.
+      if (entry.path().extension() == ".xml" && entry.path().filename() != "cameras.xml" &&
+          fs::exists(entry.path().parent_path() / "ecosystem.xml"))
         texts_[entry.path()] = base::read_file(entry.path(), 1u << 20);
     }
   }

@@ -10,6 +10,7 @@
 
 #include "ghosttile/density/node.h"
 #include "ghosttile/tile/create.h"
+#include "silvasim/base/error.h"
 #include "silvasim/base/parallel.h"
 #include "tests/unit/ghosttile/tile/made_details.h"
 
@@ -161,6 +162,38 @@ TEST_P(Priorities, APartHoldsWhatTheWholeHolds) {
   }
 }
 
+// Many candidates, so that many of one stage are possible at once.
+std::shared_ptr<const tile::GhostTile> crowded_tile() {
+  tile::CreateOptions options;
+  options.side_m = 0.5f;
+  options.spreads.resize(1);
+  options.spreads[0].count = 3000;
+  return std::make_shared<tile::GhostTile>(
+      tile::create({tile::detail_of({objects::Sphere{{0, 0, 0}, 0.05f}})}, options));
+}
+
+TEST_P(Priorities, APartOfACrowdHoldsWhatTheWholeHolds) {
+  Plan plan;
+  plan.tile = crowded_tile();
+  plan.objects.resize(1);
+  plan.objects[0].density = density::Field(box_of(7, 7, 0.6));
+  plan.priority = GetParam();
+  const Details whole = fill(plan, tiles_of(plan));
+  const TileBox box{-2, -1, -9, 2, 2, 9};
+  std::vector<Instance> expected = all_of(whole);
+  std::erase_if(expected,
+                [&](const Instance& i) { return !box.holds(std::get<0>(i), std::get<1>(i), std::get<2>(i)); });
+  EXPECT_EQ(all_of(fill(plan, box)), expected);
+  ASSERT_GT(expected.size(), 500u);
+}
+
+TEST(Fill, SaysWhatHasNoEnd) {
+  Plan plan = plan_of(nothing(), nothing());
+  Node everywhere;
+  plan.objects[0].density = density::Field(everywhere);
+  EXPECT_THROW(fill(plan, {0, 0, -farthest_tile, 4, 4, farthest_tile + 1}), silvasim::base::Error);
+}
+
 // E4 of docs/ghost-tiles.md: refusal after selection keeps the count in proportion to the density.
 TEST(Refusal, CountIsProportionalToDensity) {
   const auto count_at = [](double density) {
@@ -175,7 +208,11 @@ TEST(Refusal, CountIsProportionalToDensity) {
 
 // E5: no stripes. Tiles are coloured as they are when they are worked on; no colour has more instances than another.
 TEST_P(Priorities, NoColourOfTilesIsFavoured) {
-  const Plan plan = plan_of(box_of(30, 30, 0.25), nothing(), GetParam());
+  Plan plan;
+  plan.tile = crowded_tile();
+  plan.objects.resize(1);
+  plan.objects[0].density = density::Field(box_of(30, 30, 0.25));
+  plan.priority = GetParam();
   const Details details = fill(plan, tiles_of(plan));
   std::map<std::pair<int, int>, std::pair<double, double>> colours;  // instances, tiles
   for (std::size_t t = 0; t < details.tiles.size(); ++t) {
