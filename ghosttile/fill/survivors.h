@@ -6,7 +6,8 @@
 // beforehand, so that what stands at a place is settled by what is near (select.h).
 //   random: the turn is drawn with the density as rate (an exponential race), four stages to a doubling of rank. Among the remaining
 //     candidates of a tile, objects come up by their mean density.
-//   elevation, boundary: by levels first (an eighth of a tile of height above the ground; a sixteenth of density), chance within.
+//   elevation, boundary: by levels first (an eighth of a tile of height above the ground; a sixteenth of density), chance within,
+//     a stage to a doubling of rank.
 // Memory: 3 to 4 bytes a survivor.
 // Source: Guérin et al. 2016, sections 5.1 to 5.3; docs/ghost-tiles.md, E5 and E6.
 #pragma once

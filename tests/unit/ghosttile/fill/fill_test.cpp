@@ -284,5 +284,47 @@ TEST_P(Edits, KeepTheRestCollideWithNothingAndCanBeUndone) {
   EXPECT_EQ(refill(plan, after, touched), before);
 }
 
+// Land that an edit covers as densely as what is beside it shows no seam: along the edit's rim there is as much as elsewhere.
+TEST(EditedLand, HasNoSeamAtTheEditsRim) {
+  const auto half = [](double from, double to) {
+    Node box;
+    box.kind = Kind::box;
+    box.points = {{(from + to) / 2, 0, 0}};
+    box.size = {(to - from) / 2, 30, 0.3};
+    Node scaled;
+    scaled.kind = Kind::scale;
+    scaled.value = 0.7f;
+    scaled.children = {box};
+    return scaled;
+  };
+  Plan plan;
+  plan.tile = crowded_tile();
+  plan.objects.resize(1);
+  plan.objects[0].density = density::Field(half(-12, 0.2));
+  plan.seed = 3;
+  const Details before = fill(plan, tiles_of(plan));
+  Node both;
+  both.kind = Kind::unite;
+  both.children = {half(-12, 0.2), half(0.2, 12)};
+  plan.objects[0].density = density::Field(both);
+  const auto reach = static_cast<double>(tile::reach_of(*plan.tile));
+  const Details after = refill(plan, before, tiles_within(plan, {{0.2 - reach, -31, -1}, {13, 31, 1}}));
+  // Instances a metre of x, away from the ends.
+  const auto between = [&](double from, double to) {
+    double count = 0;
+    for (std::size_t t = 0; t < after.tiles.size(); ++t) {
+      for (const std::uint16_t c : after.of(t)) {
+        const double x = after.tiles[t].x * 0.5 + static_cast<double>(plan.tile->candidates[c].at.x);
+        count += x >= from && x < to ? 1 : 0;
+      }
+    }
+    return count / (to - from);
+  };
+  const double inside = between(3, 10), outside = between(-10, -3), rim = between(-0.3, 0.7);
+  ASSERT_GT(rim, 1000);
+  EXPECT_NEAR(rim / inside, 1, 0.05);
+  EXPECT_NEAR(outside / inside, 1, 0.05);
+}
+
 }  // namespace
 }  // namespace ghosttile::fill
