@@ -23,13 +23,17 @@ bool is_density(const xml::Node& node) {
   return std::ranges::find(density_types(), node.rule->type) != density_types().end();
 }
 
-// A place in the land's coordinates.
-V3d land_place(const xml::Node& node, const std::string& attribute, const Surroundings& around, Errors& errors) {
-  const V3d v = place(node, attribute, errors);
+// A place about the surroundings' origin, turned as they are.
+V3d turned(const Surroundings& around, const V3d& v) {
   const assets::grown::SinCos turn =
       assets::grown::sin_cos(assets::grown::radians(static_cast<float>(around.turn_deg)));
   const auto c = static_cast<double>(turn.cos), s = static_cast<double>(turn.sin);
-  V3d at(around.origin.x + c * v.x - s * v.y, around.origin.y + s * v.x + c * v.y, v.z);
+  return {around.origin.x + c * v.x - s * v.y, around.origin.y + s * v.x + c * v.y, v.z};
+}
+
+// A place in the land's coordinates.
+V3d land_place(const xml::Node& node, const std::string& attribute, const Surroundings& around, Errors& errors) {
+  V3d at = turned(around, place(node, attribute, errors));
   if (around.above_ground && around.ground) at.z += height_at(*around.ground, at.x, at.y);
   return at;
 }
@@ -138,8 +142,8 @@ Node scatter(const xml::Node& node, const Surroundings& around, Errors& errors) 
   }
   for (const V3d& at : places) {
     Surroundings there = around;
-    there.origin = around.origin + V3d(at.x, at.y, 0);
-    there.turn_deg = at.z;
+    there.origin = turned(around, V3d(at.x, at.y, 0));
+    there.turn_deg = around.turn_deg + at.z;
     std::vector<Node> copies = children_of(node, there, errors);
     std::ranges::move(copies, std::back_inserter(made.children));
     if (!errors.empty()) break;
